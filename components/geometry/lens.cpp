@@ -1,0 +1,3 @@
+#include "components/geometry/lens.hpp"
+
+namespace omma {}

@@ -1,0 +1,25 @@
+// `omma`: everything on the ground, one command with subcommands.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "fsw/kernel/input_error.hpp"
+#include "ground/command.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app{"Omma ground tools: solve photographs, simulate, monitor, record, report."};
+  app.require_subcommand(1);
+  omma::ground::CommandContext context;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const omma::InputError& error) {
+    std::fprintf(stderr, "omma: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "omma: %s\n", error.what());
+    return 2;
+  }
+  return context.exit_code;
+}

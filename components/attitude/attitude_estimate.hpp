@@ -4,6 +4,8 @@
 #include <cstdint>
 
 #include "components/estimation/solution.hpp"
+#include "config/limits.hpp"
+#include "fsw/kernel/static_vector.hpp"
 #include "fsw/kernel/tick.hpp"
 
 namespace omma {
@@ -15,6 +17,8 @@ struct AttitudeEstimate {
   AttitudeSolution solution;
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  ///< of the rig, rig frame [rad/s]
   bool rate_valid = false;
+  /// One entry per pairing of the frame set (Pairings::sky.pairs): 1 used, 0 culled.
+  StaticVector<std::uint8_t, limits::kStarPairs> used;
 };
 
 }  // namespace omma

@@ -16,6 +16,8 @@ struct PoseEstimate {
   std::uint8_t body = 0;  ///< index in the mission
   bool valid = false;
   PoseSolution solution;
+  /// One entry per pairing of the body (BodyPairings::pairs): 1 used, 0 culled.
+  StaticVector<std::uint8_t, limits::kTargetPairs> used;
 };
 
 struct PoseEstimates {

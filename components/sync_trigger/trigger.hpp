@@ -1,0 +1,15 @@
+// The trigger of one frame set: what the sync trigger writes and the camera component reads.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/kernel/tick.hpp"
+
+namespace omma {
+
+struct Trigger {
+  std::uint64_t number = 0;  ///< frame id, from trigger edge to telemetry
+  TimeNs time_ns = 0;        ///< of the edge
+};
+
+}  // namespace omma

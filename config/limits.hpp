@@ -14,6 +14,7 @@ inline constexpr int kTargetBodies = 4;          // bodies with fiducials
 inline constexpr std::size_t kTargetsPerBody = 64;   // fiducials of one body
 inline constexpr std::size_t kStarPairs = 768;   // stars paired per frame set, all cameras
 inline constexpr std::size_t kTargetPairs = kTargetsPerBody * kCameras;
+inline constexpr std::size_t kImageChunkBytes = 8192;  // pixels of one image chunk sent to the ground
 inline constexpr std::size_t kNameLength = 31;   // characters of a camera, body or spacecraft name
 
 }  // namespace omma::limits

@@ -17,8 +17,11 @@ struct CatalogueStar {
   float pm_dec;            ///< proper motion in declination [rad / Julian year]
 };
 
-/// The whole table, brightest first.
+/// The whole table, 9096 stars, brightest first; unpacked into static storage by the first call (start-up).
 std::span<const CatalogueStar> bright_star_catalogue() noexcept;
+
+/// The CRC-32 of the compiled-in table is the one its generator wrote.
+bool bright_star_catalogue_intact() noexcept;
 
 /// A star as it is to be seen: what identification, tracking and the solver work with.
 struct SkyStar {

@@ -13,8 +13,8 @@ namespace omma {
 struct Target {
   Name id;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< body frame [m]
-  std::int32_t group = 0;  ///< groups can be enabled and disabled together
-  std::int32_t type = 0;   ///< 0: dark dot on light, 1: light dot on dark (LED)
+  std::int32_t group = 0;                              ///< groups can be enabled and disabled together
+  std::int32_t type = 0;                               ///< 0: dark dot on light, 1: light dot on dark (LED)
 };
 
 struct TargetBody {

@@ -20,6 +20,9 @@ class InputPort {
  public:
   /// The output this input reads; null while unbound.
   virtual const OutputPort* source() const = 0;
+  /// True for an input that reads what its writer left in the tick before: the one way back (a prediction).
+  /// Such a reader may stand before its writer.
+  virtual bool reads_previous_tick() const { return false; }
 
  protected:
   ~InputPort() = default;
@@ -46,6 +49,21 @@ class In final : public InputPort {
   const Message& operator*() const { return **out_; }
   const Message* operator->() const { return out_->operator->(); }
   const OutputPort* source() const override { return out_; }
+
+ private:
+  const Out<Message>* out_ = nullptr;
+};
+
+/// The way back: reads the message its writer left in the tick before. Declared as such so that the wiring
+/// check lets the reader stand before the writer, and the graph draws it dashed.
+template <class Message>
+class Previous final : public InputPort {
+ public:
+  void bind(const Out<Message>& out) { out_ = &out; }
+  const Message& operator*() const { return **out_; }
+  const Message* operator->() const { return out_->operator->(); }
+  const OutputPort* source() const override { return out_; }
+  bool reads_previous_tick() const override { return true; }
 
  private:
   const Out<Message>* out_ = nullptr;

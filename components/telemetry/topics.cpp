@@ -1,0 +1,38 @@
+#include "components/telemetry/topics.hpp"
+
+namespace omma::telemetry {
+
+const std::array<Topic, kTopicCount>& topics() noexcept {
+  static const std::array<Topic, kTopicCount> table{{
+      {TopicId::kFrameSet, "frame_set", "omma::FrameSet", &omma_FrameSet_desc, Delivery::kStream, 1, false},
+      {TopicId::kDots, "dots", "omma::CameraDots", &omma_CameraDots_desc, Delivery::kStream, 1, false},
+      {TopicId::kAttitude, "attitude", "omma::Attitude", &omma_Attitude_desc, Delivery::kStream, 1, false},
+      {TopicId::kRelativePose, "relative_pose", "omma::RelativePose", &omma_RelativePose_desc,
+       Delivery::kStream, 1, false},
+      {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, false},
+      {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, true},
+      {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, false},
+      {TopicId::kImageChunk, "image_chunk", "omma::ImageChunk", &omma_ImageChunk_desc, Delivery::kStream, 1,
+       false},
+  }};
+  return table;
+}
+
+const Topic& topic(TopicId id) noexcept {
+  return topics()[static_cast<std::size_t>(id)];
+}
+
+std::optional<TopicId> find_topic(std::string_view name) noexcept {
+  const std::size_t slash = name.rfind('/');
+  const std::string_view last = slash == std::string_view::npos ? name : name.substr(slash + 1);
+  for (const Topic& entry : topics()) {
+    if (entry.name == last) return entry.id;
+  }
+  return std::nullopt;
+}
+
+std::string topic_name(std::string_view spacecraft, TopicId id) {
+  return "omma/" + std::string(spacecraft) + "/" + std::string(topic(id).name);
+}
+
+}  // namespace omma::telemetry

@@ -1,4 +1,5 @@
-// Rigid motions. `a_from_b` takes coordinates in frame b to coordinates in frame a; chains read left to right.
+// Rigid motions. `a_from_b` takes coordinates in frame b to coordinates in frame a; chains read left to
+// right.
 #pragma once
 
 #include <Eigen/Core>

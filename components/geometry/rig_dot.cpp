@@ -13,8 +13,7 @@ bool rig_dot(const Dot& dot, std::uint16_t index, const RigCamera& camera, std::
   // Covariance of the bearing in its tangent plane: Σ = (Bᵀ J) Σ_px (Bᵀ J)ᵀ, then WᵀW = Σ⁻¹.
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(ray);
   const Eigen::Matrix2d j = basis.transpose() * ray_by_pixel;
-  const Eigen::Matrix2d pixel_covariance =
-      dot.covariance + floor_px * floor_px * Eigen::Matrix2d::Identity();
+  const Eigen::Matrix2d pixel_covariance = dot.covariance + floor_px * floor_px * Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d covariance = j * pixel_covariance * j.transpose();
   const double l00 = std::sqrt(covariance(0, 0));
   const double l10 = covariance(1, 0) / l00;

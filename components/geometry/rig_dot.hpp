@@ -24,7 +24,8 @@ struct RigDot {
   std::uint16_t index = 0;  ///< index in the camera's DotList
 };
 
-/// @param floor_px  standard deviation added in quadrature to each axis for what the dot's own covariance does
+/// @param floor_px  standard deviation added in quadrature to each axis for what the dot's own covariance
+/// does
 ///                  not know (lens calibration) [px]
 /// @return false where the lens has no ray for the pixel
 bool rig_dot(const Dot& dot, std::uint16_t index, const RigCamera& camera, std::uint8_t camera_index,

@@ -1,0 +1,42 @@
+#include "components/pose/relative_pose.hpp"
+
+namespace omma {
+
+void RelativePose::visit_ports(PortVisitor& visitor) const {
+  visitor.input("pairings", pairings);
+  visitor.output("estimates", estimates);
+}
+
+void RelativePose::step(const Tick& /*tick*/) noexcept {
+  estimates->bodies.resize(pairings->bodies.size());
+  for (std::size_t b = 0; b < pairings->bodies.size(); ++b) {
+    PoseEstimate& out = estimates->bodies[b];
+    out.frame = pairings->frame;
+    out.time_ns = pairings->time_ns;
+    out.body = pairings->bodies[b].body;
+    solve_body(pairings->bodies[b], out);
+  }
+}
+
+void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexcept {
+  out.valid = false;
+  out.solution = {};
+  out.used.clear();
+  out.used.resize(body.pairs.size());
+  if (body.state == TrackState::kLost) return;
+
+  sights_.clear();
+  for (const Pairing& pairing : body.pairs) sights_.push_back(pairing.sight);
+  SolveOptions options = parameters_.solve;
+  // While a body is tracked its predicted rotation helps to choose between the two minima of a flat card.
+  out.solution = solve_pose(sights_, body.rig_from_body, options, {out.used.data(), out.used.size()});
+  out.valid = (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
+              out.solution.pairs >= parameters_.least_pairs;
+  if (!out.valid) return;
+  Eigen::Quaterniond& q = out.solution.rig_from_body.rotation;
+  if (has_last_[body.body] && q.dot(last_[body.body]) < 0) q.coeffs() = -q.coeffs();
+  has_last_[body.body] = true;
+  last_[body.body] = q;
+}
+
+}  // namespace omma

@@ -1,0 +1,39 @@
+// Relative pose: target pairings → rig_from_body with covariance, by the same solver as attitude.
+#pragma once
+
+#include <array>
+
+#include "components/estimation/least_squares.hpp"
+#include "components/pose/pose_estimate.hpp"
+#include "components/tracker/pairings.hpp"
+#include "fsw/kernel/component.hpp"
+#include "fsw/kernel/port.hpp"
+
+namespace omma {
+
+struct RelativePoseParameters {
+  SolveOptions solve;
+  int least_pairs = 4;  ///< fewer pairs after the cull give no pose
+};
+
+class RelativePose final : public Component {
+ public:
+  explicit RelativePose(const RelativePoseParameters& parameters) : parameters_(parameters) {}
+
+  In<Pairings> pairings;
+  Out<PoseEstimates> estimates;
+
+  std::string_view name() const override { return "pose"; }
+  void visit_ports(PortVisitor& visitor) const override;
+  void step(const Tick& tick) noexcept override;
+
+ private:
+  void solve_body(const BodyPairings& body, PoseEstimate& out) noexcept;
+
+  RelativePoseParameters parameters_;
+  StaticVector<Sight, limits::kTargetPairs> sights_;
+  std::array<Eigen::Quaterniond, limits::kTargetBodies> last_{};
+  std::array<bool, limits::kTargetBodies> has_last_{};
+};
+
+}  // namespace omma

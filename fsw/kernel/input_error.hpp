@@ -23,7 +23,7 @@ class InputError : public std::runtime_error {
   static std::string sentence(std::string_view file, int line, std::string_view field,
                               std::string_view expected, std::string_view found) {
     std::string text(file);
-    if (line > 0) text += ":" + std::to_string(line);
+    if (line > 0) text.append(1, ':').append(std::to_string(line));
     text += ": ";
     text += field;
     text += ": expected ";

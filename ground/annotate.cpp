@@ -1,0 +1,123 @@
+#include "ground/annotate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include "ground/draw/labels.hpp"
+#include "ground/draw/sky_grid.hpp"
+#include "ground/draw/stretch.hpp"
+
+namespace omma::ground {
+namespace {
+
+constexpr int kSmallestWidth = 1000;  // narrower images are enlarged
+constexpr std::array<Colour, 3> kMarkColours{
+    {{1, 1, 1, 0.75}, {0.30, 0.95, 0.45, 0.95}, {1.0, 0.32, 0.28, 0.95}}};
+constexpr std::array<const char*, 3> kMarkNames{"found", "paired", "culled"};
+
+const Colour& colour_of(MarkKind kind) {
+  return kMarkColours[static_cast<std::size_t>(kind)];
+}
+
+struct Sizes {
+  int scale = 1;
+  double text = 12;
+  double radius = 7;
+  double line = 1.3;
+};
+
+Sizes sizes_for(const ImageView& image) {
+  Sizes sizes;
+  sizes.scale = std::max(1, (kSmallestWidth + image.width - 1) / image.width);
+  const double width = static_cast<double>(image.width) * sizes.scale;
+  sizes.text = std::clamp(width / 90, 12.0, 48.0);
+  sizes.radius = 0.55 * sizes.text;
+  sizes.line = std::max(1.2, sizes.text / 10);
+  return sizes;
+}
+
+/// A pixel of the image in the enlarged picture.
+Eigen::Vector2d enlarged(const Eigen::Vector2d& pixel, int scale) {
+  return ((pixel.array() + 0.5) * scale - 0.5).matrix();
+}
+
+/// Panel in the lower left corner: title, lines, and what the colours mean with how many there are.
+void draw_legend(Canvas& canvas, Labels& labels, const Annotation& annotation, const Sizes& sizes) {
+  const double margin = 0.7 * sizes.text;
+  const double step = 1.45 * sizes.text;
+  std::array<std::size_t, 3> counts{};
+  for (const Mark& mark : annotation.marks) ++counts[static_cast<std::size_t>(mark.kind)];
+  std::vector<std::string> keys;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    keys.push_back(std::to_string(counts[i]) + " " + kMarkNames[i]);
+  }
+  std::vector<std::string> lines;
+  if (!annotation.title.empty()) lines.push_back(annotation.title);
+  lines.insert(lines.end(), annotation.lines.begin(), annotation.lines.end());
+
+  double key_width = 0;
+  for (const std::string& key : keys) {
+    key_width += canvas.text_box({0, 0}, key, sizes.text).right + 3 * sizes.text;
+  }
+  double width = annotation.marks.empty() ? 0 : key_width;
+  for (const std::string& line : lines) {
+    width = std::max(width, canvas.text_box({0, 0}, line, sizes.text).right);
+  }
+  const double rows = static_cast<double>(lines.size()) + (annotation.marks.empty() ? 0 : 1);
+  if (rows == 0) return;
+  const Box panel{margin, canvas.height() - margin - rows * step - margin, 3 * margin + width,
+                  canvas.height() - margin};
+  canvas.fill_box(panel, {0.02, 0.03, 0.06, 0.72});
+  labels.reserve(panel);
+  Eigen::Vector2d cursor(panel.left + margin, panel.top + margin / 2 + 1.05 * sizes.text);
+  for (const std::string& line : lines) {
+    canvas.text(cursor, line, sizes.text, {1, 1, 1, 0.95});
+    cursor.y() += step;
+  }
+  if (annotation.marks.empty()) return;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    canvas.circle(cursor + Eigen::Vector2d(0.45 * sizes.text, -0.36 * sizes.text), 0.42 * sizes.text,
+                  kMarkColours[i], sizes.line);
+    cursor.x() += 1.3 * sizes.text;
+    canvas.text(cursor, keys[i], sizes.text, kMarkColours[i].with_alpha(0.95));
+    cursor.x() += canvas.text_box({0, 0}, keys[i], sizes.text).right + 1.4 * sizes.text;
+  }
+}
+
+void draw_grid(Canvas& canvas, Labels& labels, const SkyView& sky, const Sizes& sizes) {
+  const SkyProjection projection = [&](const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) {
+    if (!sky.lens.project(sky.camera_from_j2000 * direction, pixel)) return false;
+    pixel = enlarged(pixel, sizes.scale);
+    return true;
+  };
+  const double field_deg = 2 * sky.lens.max_angle() * 180 / std::numbers::pi;
+  const double largest_jump = 0.1 * std::max(canvas.width(), canvas.height());
+  draw_sky_grid(canvas, labels, sky_grid(projection, grid_step(field_deg), largest_jump), 0.9 * sizes.text);
+}
+
+}  // namespace
+
+Canvas annotate(const ImageView& image, const Annotation& annotation) {
+  const Sizes sizes = image.empty() ? Sizes{} : sizes_for(image);
+  Canvas canvas(stretched(image, night_sky_stretch(image)), sizes.scale);
+  Labels labels(canvas);
+  draw_legend(canvas, labels, annotation, sizes);
+  std::vector<double> radii;
+  for (const Mark& mark : annotation.marks) {
+    radii.push_back(mark.radius_px > 0 ? mark.radius_px * sizes.scale : sizes.radius);
+    const Eigen::Vector2d centre = enlarged(mark.pixel, sizes.scale);
+    canvas.circle(centre, radii.back(), colour_of(mark.kind), sizes.line);
+    const double r = radii.back();
+    labels.reserve({centre.x() - r, centre.y() - r, centre.x() + r, centre.y() + r});
+  }
+  for (std::size_t i = 0; i < annotation.marks.size(); ++i) {
+    const Mark& mark = annotation.marks[i];
+    if (mark.label.empty()) continue;
+    labels.place(enlarged(mark.pixel, sizes.scale), radii[i], mark.label, sizes.text, colour_of(mark.kind));
+  }
+  if (annotation.sky) draw_grid(canvas, labels, *annotation.sky, sizes);
+  return canvas;
+}
+
+}  // namespace omma::ground

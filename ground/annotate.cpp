@@ -42,46 +42,43 @@ Eigen::Vector2d enlarged(const Eigen::Vector2d& pixel, int scale) {
   return ((pixel.array() + 0.5) * scale - 0.5).matrix();
 }
 
-/// Panel in the lower left corner: title, lines, and what the colours mean with how many there are.
-void draw_legend(Canvas& canvas, Labels& labels, const Annotation& annotation, const Sizes& sizes) {
-  const double margin = 0.7 * sizes.text;
-  const double step = 1.45 * sizes.text;
+/// What the legend says: its lines, and what the colours mean with how many there are.
+struct Legend {
+  std::vector<std::string> lines;
+  std::vector<std::string> keys;  ///< one per MarkKind; empty without marks
+  double height = 0;              ///< [px], 0 for nothing to say
+};
+
+Legend legend_of(const Annotation& annotation, const Sizes& sizes) {
+  Legend legend;
+  if (!annotation.title.empty()) legend.lines.push_back(annotation.title);
+  legend.lines.insert(legend.lines.end(), annotation.lines.begin(), annotation.lines.end());
   std::array<std::size_t, 3> counts{};
   for (const Mark& mark : annotation.marks) ++counts[static_cast<std::size_t>(mark.kind)];
-  std::vector<std::string> keys;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    keys.push_back(std::to_string(counts[i]) + " " + kMarkNames[i]);
+  for (std::size_t i = 0; i < counts.size() && !annotation.marks.empty(); ++i) {
+    legend.keys.push_back(std::to_string(counts[i]) + " " + kMarkNames[i]);
   }
-  std::vector<std::string> lines;
-  if (!annotation.title.empty()) lines.push_back(annotation.title);
-  lines.insert(lines.end(), annotation.lines.begin(), annotation.lines.end());
+  const double rows = static_cast<double>(legend.lines.size()) + (legend.keys.empty() ? 0 : 1);
+  if (rows > 0) legend.height = (1.45 * rows + 0.9) * sizes.text;
+  return legend;
+}
 
-  double key_width = 0;
-  for (const std::string& key : keys) {
-    key_width += canvas.text_box({0, 0}, key, sizes.text).right + 3 * sizes.text;
-  }
-  double width = annotation.marks.empty() ? 0 : key_width;
-  for (const std::string& line : lines) {
-    width = std::max(width, canvas.text_box({0, 0}, line, sizes.text).right);
-  }
-  const double rows = static_cast<double>(lines.size()) + (annotation.marks.empty() ? 0 : 1);
-  if (rows == 0) return;
-  const Box panel{margin, canvas.height() - margin - rows * step - margin, 3 * margin + width,
-                  canvas.height() - margin};
-  canvas.fill_box(panel, {0.02, 0.03, 0.06, 0.72});
-  labels.reserve(panel);
-  Eigen::Vector2d cursor(panel.left + margin, panel.top + margin / 2 + 1.05 * sizes.text);
-  for (const std::string& line : lines) {
+void draw_legend(Canvas& canvas, const Legend& legend, const Sizes& sizes) {
+  const double width = canvas.width();
+  const double height = canvas.height();
+  const Box strip{-1, height - legend.height, width, height};
+  canvas.fill_box(strip, {0.06, 0.08, 0.12});
+  Eigen::Vector2d cursor(0.8 * sizes.text, strip.top + 1.45 * sizes.text);
+  for (const std::string& line : legend.lines) {
     canvas.text(cursor, line, sizes.text, {1, 1, 1, 0.95});
-    cursor.y() += step;
+    cursor.y() += 1.45 * sizes.text;
   }
-  if (annotation.marks.empty()) return;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    canvas.circle(cursor + Eigen::Vector2d(0.45 * sizes.text, -0.36 * sizes.text), 0.42 * sizes.text,
-                  kMarkColours[i], sizes.line);
+  for (std::size_t i = 0; i < legend.keys.size(); ++i) {
+    const Eigen::Vector2d centre = cursor + Eigen::Vector2d(0.45, -0.36) * sizes.text;
+    canvas.circle(centre, 0.42 * sizes.text, kMarkColours[i], sizes.line);
     cursor.x() += 1.3 * sizes.text;
-    canvas.text(cursor, keys[i], sizes.text, kMarkColours[i].with_alpha(0.95));
-    cursor.x() += canvas.text_box({0, 0}, keys[i], sizes.text).right + 1.4 * sizes.text;
+    canvas.text(cursor, legend.keys[i], sizes.text, kMarkColours[i].with_alpha(0.95));
+    cursor.x() += canvas.text_box({0, 0}, legend.keys[i], sizes.text).right + 1.4 * sizes.text;
   }
 }
 
@@ -100,9 +97,10 @@ void draw_grid(Canvas& canvas, Labels& labels, const SkyView& sky, const Sizes& 
 
 Canvas annotate(const ImageView& image, const Annotation& annotation) {
   const Sizes sizes = image.empty() ? Sizes{} : sizes_for(image);
-  Canvas canvas(stretched(image, night_sky_stretch(image)), sizes.scale);
+  const Legend legend = legend_of(annotation, sizes);
+  Canvas canvas(stretched(image, night_sky_stretch(image)), sizes.scale, static_cast<int>(legend.height));
   Labels labels(canvas);
-  draw_legend(canvas, labels, annotation, sizes);
+  labels.reserve({-1.0, canvas.height() - legend.height, 1.0 * canvas.width(), 1.0 * canvas.height()});
   std::vector<double> radii;
   for (const Mark& mark : annotation.marks) {
     radii.push_back(mark.radius_px > 0 ? mark.radius_px * sizes.scale : sizes.radius);
@@ -117,6 +115,7 @@ Canvas annotate(const ImageView& image, const Annotation& annotation) {
     labels.place(enlarged(mark.pixel, sizes.scale), radii[i], mark.label, sizes.text, colour_of(mark.kind));
   }
   if (annotation.sky) draw_grid(canvas, labels, *annotation.sky, sizes);
+  if (legend.height > 0) draw_legend(canvas, legend, sizes);
   return canvas;
 }
 

@@ -69,8 +69,8 @@ Canvas::Canvas(int width, int height)
   cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
 }
 
-Canvas::Canvas(const GreyPicture& picture, int scale)
-    : Canvas(picture.width * scale, picture.height * scale) {
+Canvas::Canvas(const GreyPicture& picture, int scale, int footer)
+    : Canvas(picture.width * scale, picture.height * scale + footer) {
   if (scale == 1) {
     copy_grey(picture, surface_.get());
     return;

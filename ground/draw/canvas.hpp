@@ -47,8 +47,8 @@ class Canvas {
  public:
   /// A black picture. @throws std::runtime_error when the size is not positive or memory is short
   Canvas(int width, int height);
-  /// The grey picture enlarged `scale` times (smoothly).
-  Canvas(const GreyPicture& picture, int scale);
+  /// The grey picture enlarged `scale` times (smoothly), with `footer` black rows below it.
+  explicit Canvas(const GreyPicture& picture, int scale = 1, int footer = 0);
   ~Canvas();
   Canvas(Canvas&& other) noexcept;
   Canvas& operator=(Canvas&& other) noexcept;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <span>
 #include <iterator>
+#include <span>
 
 namespace omma {
 namespace {

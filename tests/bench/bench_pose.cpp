@@ -1,0 +1,122 @@
+// Pose from paired targets on the peers' problem (rig_problem.hpp): time, error over the Cramér–Rao bound,
+// NEES, failures (beyond 6 σ), iterations. Peers on the same problem and machine, median µs for N = 8/20/60:
+// PoseLib 11.7/19.9/49 warm and 62/91/186 cold, Ceres 33/57/126 warm.
+#include <Eigen/LU>
+#include <cstdio>
+#include <vector>
+
+#include "components/estimation/least_squares.hpp"
+#include "tests/bench/benches.hpp"
+#include "tests/bench/measure.hpp"
+#include "tests/bench/rig_problem.hpp"
+
+namespace omma {
+namespace {
+
+constexpr std::uint64_t kFirstSeed = 1000;  // the peers' first
+
+struct Tally {
+  std::vector<double> times;
+  double squared_position = 0, squared_rotation = 0, bound_position = 0, bound_rotation = 0, nees = 0;
+  double iterations = 0;
+  int most_iterations = 0;
+  int failures = 0, flagged_failures = 0, ambiguous = 0, solved = 0, trials = 0;
+};
+
+void count(const RigProblem& problem, const PoseSolution& solution, Tally& tally) {
+  ++tally.trials;
+  const Vector6d error = pose_error(solution.rig_from_body, problem.truth);
+  const double rotation_bound = problem.bound.topLeftCorner<3, 3>().trace();
+  const double position_bound = problem.bound.bottomRightCorner<3, 3>().trace();
+  tally.iterations += solution.iterations;
+  tally.most_iterations = std::max<int>(tally.most_iterations, solution.iterations);
+  tally.ambiguous += solution.ambiguous ? 1 : 0;
+  const double rotation_error = error.head<3>().squaredNorm(), position_error = error.tail<3>().squaredNorm();
+  if (!(rotation_error < 36 * rotation_bound && position_error < 36 * position_bound)) {
+    ++tally.failures;
+    tally.flagged_failures += solution.ambiguous || solution.status != SolveStatus::kSolved ? 1 : 0;
+    return;
+  }
+  ++tally.solved;
+  tally.squared_rotation += rotation_error;
+  tally.squared_position += position_error;
+  tally.bound_rotation += rotation_bound;
+  tally.bound_position += position_bound;
+  tally.nees += error.dot(solution.covariance.inverse() * error);
+}
+
+void print(const char* name, const Tally& tally) {
+  const double n = std::max(1, tally.solved);
+  std::printf("%-34s %7.1f %7.1f %7.1f %7.3f %7.3f %6.2f %6.1f %4d %6.2f %8.2f %6.1f\n", name,
+              quantile(tally.times, 0.5), quantile(tally.times, 0.99), quantile(tally.times, 1.0),
+              std::sqrt(tally.squared_position / tally.bound_position),
+              std::sqrt(tally.squared_rotation / tally.bound_rotation), tally.nees / n,
+              tally.iterations / std::max(1, tally.trials), tally.most_iterations,
+              100.0 * tally.failures / tally.trials,
+              100.0 * (tally.failures - tally.flagged_failures) / tally.trials,
+              100.0 * tally.ambiguous / tally.trials);
+}
+
+void print_header(const char* title) {
+  std::printf("\n%-34s %7s %7s %7s %7s %7s %6s %6s %4s %6s %8s %6s\n", title, "med us", "p99 us", "max us",
+              "pos/bnd", "rot/bnd", "NEES", "iter", "max", "fail%", "silent%", "ambig%");
+}
+
+template <class Solve>
+void run(const char* name, const RigProblemOptions& options, int trials, Solve&& solve) {
+  Tally tally;
+  for (int trial = 0; trial < trials; ++trial) {
+    const RigProblem problem = make_rig_problem(options, kFirstSeed + static_cast<std::uint64_t>(trial));
+    std::vector<std::uint8_t> used(problem.sights.size());
+    PoseSolution solution;
+    tally.times.push_back(microseconds([&] { solution = solve(problem, used); }));
+    count(problem, solution, tally);
+  }
+  print(name, tally);
+}
+
+void warm(int trials) {
+  print_header("warm (prior 5 deg, 50 mm)");
+  for (const int n : {8, 20, 60}) {
+    RigProblemOptions options;
+    options.targets = n;
+    SolveOptions nearest;
+    nearest.second_minimum = SecondMinimum::kIgnore;
+    SolveOptions both;
+    both.prior_rotation_sigma = 0.1;
+    char name[64];
+    std::snprintf(name, sizeof name, "N = %d, one minimum", n);
+    run(name, options, trials, [&](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return solve_pose(problem.sights, problem.prior, nearest, used);
+    });
+    std::snprintf(name, sizeof name, "N = %d, both minima", n);
+    run(name, options, trials, [&](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return solve_pose(problem.sights, problem.prior, both, used);
+    });
+  }
+}
+
+void outliers(int trials) {
+  print_header("20 % mis-paired, warm");
+  for (const int n : {20, 60}) {
+    RigProblemOptions options;
+    options.targets = n;
+    options.outlier_fraction = 0.2;
+    char name[64];
+    std::snprintf(name, sizeof name, "N = %d", n);
+    run(name, options, trials, [&](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return solve_pose(problem.sights, problem.prior, {}, used);
+    });
+  }
+}
+
+}  // namespace
+
+int bench_pose(int argc, char** argv) {
+  const int trials = option(argc, argv, "--trials", 400);
+  warm(trials);
+  outliers(trials);
+  return 0;
+}
+
+}  // namespace omma

@@ -1,0 +1,9 @@
+// The benches of omma-bench. Each prints a table and returns 0, or 2 for an option it does not know.
+#pragma once
+
+namespace omma {
+
+int bench_attitude(int argc, char** argv);
+int bench_pose(int argc, char** argv);
+
+}  // namespace omma

@@ -1,0 +1,37 @@
+// What benches share: a stop-watch, order statistics, and the `--name value` options.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace omma {
+
+/// Wall time of one call [µs].
+template <class Call>
+double microseconds(Call&& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The value below which the fraction `q` of the samples lies.
+inline double quantile(std::vector<double> samples, double q) {
+  if (samples.empty()) return 0;
+  const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(samples.size() - 1) + 0.5);
+  std::nth_element(samples.begin(), samples.begin() + k, samples.end());
+  return samples[static_cast<std::size_t>(k)];
+}
+
+/// Value of `--name N` among the arguments, or `fallback`.
+inline int option(int argc, char** argv, const char* name, int fallback) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], name) == 0) return std::atoi(argv[i + 1]);
+  return fallback;
+}
+
+}  // namespace omma

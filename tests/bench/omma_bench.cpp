@@ -1,0 +1,30 @@
+// `omma-bench NAME [options]`: measures one box; each bench is a file of its own, bench_<name>.cpp.
+#include <cstdio>
+#include <cstring>
+
+#include "tests/bench/benches.hpp"
+
+namespace {
+
+struct Bench {
+  const char* name;
+  int (*run)(int argc, char** argv);
+  const char* what;
+};
+
+// One line a bench.
+constexpr Bench kBenches[] = {
+    {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
+    {"pose", omma::bench_pose,
+     "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (const Bench& bench : kBenches)
+    if (argc > 1 && std::strcmp(argv[1], bench.name) == 0) return bench.run(argc - 1, argv + 1);
+  std::fprintf(stderr, "usage: omma-bench NAME [options]\n");
+  for (const Bench& bench : kBenches) std::fprintf(stderr, "  %-24s %s\n", bench.name, bench.what);
+  return 2;
+}

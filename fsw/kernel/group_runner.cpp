@@ -1,0 +1,107 @@
+// The beat of a rate group.
+#include "fsw/kernel/group_runner.hpp"
+
+#include <algorithm>
+
+#include "fsw/kernel/crossing.hpp"
+#include "fsw/kernel/real_time_scope.hpp"
+#include "fsw/kernel/thread_cpu_time.hpp"
+
+namespace omma {
+namespace {
+
+void add_once(std::vector<Crossing*>& crossings, Crossing* crossing) {
+  if (std::find(crossings.begin(), crossings.end(), crossing) == crossings.end())
+    crossings.push_back(crossing);
+}
+
+}  // namespace
+
+GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const Wiring& wiring, Clock& clock,
+                         ScheduleObserver& observer)
+    : group_(table.groups[index]),
+      index_(index),
+      base_period_(table.base_period.count()),
+      clock_(clock),
+      observer_(observer) {
+  for (const ScheduledComponent& scheduled : group_.components) {
+    steps_.push_back(std::make_unique<Step>());
+    steps_.back()->component = &scheduled.component;
+    steps_.back()->budget_ns = scheduled.budget.count();
+  }
+  for (const Connection& connection : wiring.connections) {
+    if (connection.crossing == nullptr) continue;
+    const WiredComponent& writer = wiring.components[wiring.outputs[connection.output].component];
+    const WiredComponent& reader = wiring.components[wiring.inputs[connection.input].component];
+    if (writer.group == index) add_once(steps_[writer.position]->publish, connection.crossing);
+    if (reader.group == index) add_once(acquire_, connection.crossing);
+  }
+}
+
+void GroupRunner::start_at(TimeNs start) noexcept {
+  grid_ = Grid(start, base_period_, group_.divisor, group_.offset);
+  beat_ = 0;
+}
+
+void GroupRunner::serve(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept {
+  const std::uint64_t end = grid_.beats_before(until_tick);
+  while (beat_ < end && !stop.load(std::memory_order_relaxed)) {
+    const TimeNs due = grid_.due(beat_);
+    clock_.sleep_until(due);
+    if (stop.load(std::memory_order_relaxed)) return;
+    const TimeNs woken = clock_.now();
+    std::uint64_t first_missed = beat_;
+    if (woken - grid_.due(beat_ + 1) < 0) {
+      serve_beat(grid_.tick(beat_), woken - due);
+      ++first_missed;
+    }
+    beat_ = std::clamp(grid_.first_beat_from(clock_.now()), first_missed, end);
+    if (beat_ > first_missed) miss(first_missed, beat_ - first_missed);
+  }
+}
+
+void GroupRunner::serve_tick(std::uint64_t tick_number) noexcept {
+  if (grid_.tick_number(beat_) != tick_number) return;
+  serve_beat(grid_.tick(beat_), 0);
+  ++beat_;
+}
+
+void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
+  const RealTimeScope real_time;
+  timing_.latency.add(latency_ns);
+  observer_.beat_started(index_, tick, latency_ns);
+  for (Crossing* crossing : acquire_) crossing->acquire();
+  TimeNs wall_before = clock_.stopwatch();
+  TimeNs cpu_before = thread_cpu_time();
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    Step& step = *steps_[i];
+    step.component->step(tick);
+    for (Crossing* crossing : step.publish) crossing->publish();
+    const TimeNs wall = clock_.stopwatch();
+    const TimeNs cpu = thread_cpu_time();
+    const StepTime time{wall_before, wall - wall_before, cpu - cpu_before};
+    step.timing.wall.add(time.wall_ns);
+    step.timing.cpu.add(time.cpu_ns);
+    judge({index_, static_cast<std::uint16_t>(i)}, tick, time, step);
+    wall_before = wall;
+    cpu_before = cpu;
+  }
+  observer_.beat_finished(index_, tick);
+}
+
+void GroupRunner::judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept {
+  observer_.component_stepped(place, tick, time);
+  // In lockstep the replay must not depend on how fast this machine is.
+  if (step.budget_ns == 0 || time.wall_ns <= step.budget_ns || clock_.lockstep()) return;
+  step.timing.over_budget.store(step.timing.over_budget.load(std::memory_order_relaxed) + 1,
+                                std::memory_order_relaxed);
+  observer_.over_budget(place, tick, time, step.budget_ns);
+}
+
+void GroupRunner::miss(std::uint64_t beat, std::uint64_t count) noexcept {
+  const RealTimeScope real_time;
+  timing_.missed.store(timing_.missed.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
+  observer_.missed(index_, grid_.tick(beat), count);
+}
+
+}  // namespace omma

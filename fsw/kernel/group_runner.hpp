@@ -1,0 +1,78 @@
+// Runs one rate group: waits for its beats on the grid and steps its components, measuring each. Whoever
+// calls (a thread of the scheduler, or the lockstep loop) is the group's one thread.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "fsw/kernel/clock.hpp"
+#include "fsw/kernel/grid.hpp"
+#include "fsw/kernel/rate_group.hpp"
+#include "fsw/kernel/schedule_observer.hpp"
+#include "fsw/kernel/timing.hpp"
+#include "fsw/kernel/wiring.hpp"
+
+namespace omma {
+
+/// What is known of one component's steps; read by any thread.
+struct ComponentTiming {
+  DurationStatistics wall;
+  DurationStatistics cpu;
+  std::atomic<std::uint64_t> over_budget{0};
+};
+
+/// What is known of one group's beats; read by any thread.
+struct GroupTiming {
+  DurationStatistics latency;  ///< from due to begun; its count is the number of beats served
+  std::atomic<std::uint64_t> missed{0};
+};
+
+class GroupRunner {
+ public:
+  /// @param index   of the group in the table
+  /// @param wiring  of the same table, without faults
+  GroupRunner(const RateGroupTable& table, std::uint16_t index, const Wiring& wiring, Clock& clock,
+              ScheduleObserver& observer);
+
+  /// Places the grid; beat 0 is next.
+  void start_at(TimeNs start) noexcept;
+
+  /// Real time: serves beats until base tick `until_tick` or `stop`. A beat that cannot begin before the
+  /// next one is due, because its group still ran or the machine woke it too late, is missed: counted,
+  /// reported, never made up.
+  void serve(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept;
+
+  /// Lockstep: serves base tick `tick_number` if it is one of the group's.
+  void serve_tick(std::uint64_t tick_number) noexcept;
+
+  const RateGroup& group() const { return group_; }
+  const GroupTiming& timing() const { return timing_; }
+  const ComponentTiming& component_timing(std::size_t component) const { return steps_[component]->timing; }
+
+ private:
+  /// One component with what the scheduler does around its step.
+  struct Step {
+    Component* component = nullptr;
+    TimeNs budget_ns = 0;
+    std::vector<Crossing*> publish;  // crossings that lead out of it
+    ComponentTiming timing;
+  };
+
+  void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
+  void judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
+  void miss(std::uint64_t beat, std::uint64_t count) noexcept;
+
+  RateGroup group_;
+  std::uint16_t index_;
+  TimeNs base_period_;
+  Clock& clock_;
+  ScheduleObserver& observer_;
+  Grid grid_;
+  std::uint64_t beat_ = 0;          // next to be served
+  std::vector<Crossing*> acquire_;  // crossings that lead in
+  std::vector<std::unique_ptr<Step>> steps_;
+  GroupTiming timing_;
+};
+
+}  // namespace omma

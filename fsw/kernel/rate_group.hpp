@@ -1,0 +1,37 @@
+// The schedule as one table a reader can take in: which components run, in what order, how often, where,
+// and how long each may take.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "fsw/kernel/component.hpp"
+
+namespace omma {
+
+struct ScheduledComponent {
+  Component& component;
+  /// Longest time one step may take on the wall clock; 0: not judged.
+  std::chrono::nanoseconds budget{0};
+};
+
+inline constexpr int kAnyCore = -1;
+
+/// Components that beat together, one after the other, on one thread.
+struct RateGroup {
+  std::string_view name;      ///< a literal: it must outlive the scheduler
+  std::uint32_t divisor = 1;  ///< base ticks from one beat to the next
+  std::uint32_t offset = 0;   ///< base ticks from start to the first beat, less than `divisor`
+  int priority = 0;           ///< SCHED_FIFO 1 to 99; 0: an ordinary thread
+  int core = kAnyCore;        ///< processor it is tied to
+  std::vector<ScheduledComponent> components;  ///< in the order they run
+};
+
+struct RateGroupTable {
+  std::chrono::nanoseconds base_period{0};
+  std::vector<RateGroup> groups;
+};
+
+}  // namespace omma

@@ -1,0 +1,37 @@
+// What the scheduler tells the rest of the program about time. Every call comes on the thread of the rate
+// group concerned, from inside its real-time section: an observer neither allocates, locks nor blocks,
+// and is called from several threads at once.
+#pragma once
+
+#include <cstdint>
+
+#include "fsw/kernel/tick.hpp"
+
+namespace omma {
+
+/// Where in the table: group index, component index within the group.
+struct SchedulePlace {
+  std::uint16_t group = 0;
+  std::uint16_t component = 0;
+};
+
+struct StepTime {
+  TimeNs start_ns = 0;  ///< on the stopwatch
+  TimeNs wall_ns = 0;
+  TimeNs cpu_ns = 0;  ///< of this thread: less than the wall time by what pre-emption took
+};
+
+class ScheduleObserver {
+ public:
+  virtual ~ScheduleObserver() = default;
+  /// A beat begins, `latency_ns` after it was due.
+  virtual void beat_started(std::uint16_t /*group*/, const Tick&, TimeNs /*latency_ns*/) noexcept {}
+  virtual void component_stepped(SchedulePlace, const Tick&, const StepTime&) noexcept {}
+  virtual void beat_finished(std::uint16_t /*group*/, const Tick&) noexcept {}
+  /// A step took longer than its budget.
+  virtual void over_budget(SchedulePlace, const Tick&, const StepTime&, TimeNs /*budget_ns*/) noexcept {}
+  /// Beats that were due and will never be served: `count` of them, the first at `first`.
+  virtual void missed(std::uint16_t /*group*/, const Tick& /*first*/, std::uint64_t /*count*/) noexcept {}
+};
+
+}  // namespace omma

@@ -35,11 +35,10 @@ class Grid {
 
   /// First beat that is due at `instant` or later.
   constexpr std::uint64_t first_beat_from(TimeNs instant) const {
-    const auto elapsed =
-        static_cast<std::int64_t>(static_cast<std::uint64_t>(instant) - static_cast<std::uint64_t>(due(0)));
-    if (elapsed <= 0) return 0;
+    const TimeNs since = elapsed(due(0), instant);
+    if (since <= 0) return 0;
     const std::uint64_t period = divisor_ * static_cast<std::uint64_t>(base_period_);
-    return (static_cast<std::uint64_t>(elapsed) + period - 1) / period;
+    return (static_cast<std::uint64_t>(since) + period - 1) / period;
   }
 
  private:

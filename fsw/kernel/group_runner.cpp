@@ -51,8 +51,8 @@ void GroupRunner::serve(std::uint64_t until_tick, const std::atomic<bool>& stop)
     if (stop.load(std::memory_order_relaxed)) return;
     const TimeNs woken = clock_.now();
     std::uint64_t first_missed = beat_;
-    if (woken - grid_.due(beat_ + 1) < 0) {
-      serve_beat(grid_.tick(beat_), woken - due);
+    if (elapsed(woken, grid_.due(beat_ + 1)) > 0) {
+      serve_beat(grid_.tick(beat_), elapsed(due, woken));
       ++first_missed;
     }
     beat_ = std::clamp(grid_.first_beat_from(clock_.now()), first_missed, end);
@@ -79,7 +79,7 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
     for (Crossing* crossing : step.publish) crossing->publish();
     const TimeNs wall = clock_.stopwatch();
     const TimeNs cpu = thread_cpu_time();
-    const StepTime time{wall_before, wall - wall_before, cpu - cpu_before};
+    const StepTime time{wall_before, elapsed(wall_before, wall), cpu - cpu_before};
     step.timing.wall.add(time.wall_ns);
     step.timing.cpu.add(time.cpu_ns);
     judge({index_, static_cast<std::uint16_t>(i)}, tick, time, step);

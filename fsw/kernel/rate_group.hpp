@@ -26,12 +26,12 @@ struct RateGroup {
   std::uint32_t offset = 0;   ///< base ticks from start to the first beat, less than `divisor`
   int priority = 0;           ///< SCHED_FIFO 1 to 99; 0: an ordinary thread
   int core = kAnyCore;        ///< processor it is tied to
-  std::vector<ScheduledComponent> components;  ///< in the order they run
+  std::vector<ScheduledComponent> components{};  ///< in the order they run
 };
 
 struct RateGroupTable {
   std::chrono::nanoseconds base_period{0};
-  std::vector<RateGroup> groups;
+  std::vector<RateGroup> groups{};
 };
 
 }  // namespace omma

@@ -12,8 +12,8 @@ void SeenDots::build(const DotLists& lists, const Rig& rig, double floor_px) noe
     claimed_[c].fill(0);
     for (std::size_t d = 0; d < list.dots.size(); ++d) {
       RigDot dot;
-      const bool seen = rig_dot(list.dots[d], static_cast<std::uint16_t>(d), camera, static_cast<std::uint8_t>(c),
-                                floor_px, dot);
+      const bool seen = rig_dot(list.dots[d], static_cast<std::uint16_t>(d), camera,
+                                static_cast<std::uint8_t>(c), floor_px, dot);
       ray_of_dot_[c][d] = seen ? static_cast<std::int32_t>(rays_.size()) : -1;
       if (seen) rays_.push_back(dot);
     }

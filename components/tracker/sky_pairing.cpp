@@ -36,7 +36,8 @@ void SkyPairing::predict(const RigCamera& camera, std::size_t camera_index, std:
 
 void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> stars,
                       const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
-                      std::span<const HiddenCone> hidden, StaticVector<Pairing, limits::kStarPairs>& out) noexcept {
+                      std::span<const HiddenCone> hidden,
+                      StaticVector<Pairing, limits::kStarPairs>& out) noexcept {
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
     if (dots.list(c).dots.empty()) continue;
     predict(rig.cameras[c], c, stars, prediction, magnitude_limit, hidden);

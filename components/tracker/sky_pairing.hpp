@@ -31,9 +31,9 @@ class SkyPairing {
   /// Appends the pairs of all cameras to `out` and marks their dots as claimed. Stars brighter first, at most
   /// Assigner::kPredictions of them in an image.
   /// @param stars  apparent places, brightest first; those fainter than `magnitude_limit` are not used
-  void pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> stars, const PredictedAttitude& prediction,
-            float magnitude_limit, const AssignmentGate& gate, std::span<const HiddenCone> hidden,
-            StaticVector<Pairing, limits::kStarPairs>& out) noexcept;
+  void pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> stars,
+            const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
+            std::span<const HiddenCone> hidden, StaticVector<Pairing, limits::kStarPairs>& out) noexcept;
 
  private:
   void predict(const RigCamera& camera, std::size_t camera_index, std::span<const SkyStar> stars,

@@ -15,6 +15,7 @@ struct Bench {
 // One line a bench.
 constexpr Bench kBenches[] = {
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
+    {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
 };

@@ -1,0 +1,18 @@
+// Sky coverage: how much of the sky each camera of a rig sees, and the largest angle between two dots. It
+// tells star identification how bright the stars are that it has to expect.
+#pragma once
+
+#include "components/geometry/rig.hpp"
+
+namespace omma {
+
+struct SkyCoverage {
+  StaticVector<double, limits::kCameras> solid_angle;  ///< of each camera [sr], at most 4π
+  double camera_angle = 0;  ///< largest angle between two directions in one camera [rad], at most π
+  double rig_angle = 0;     ///< the same in the whole rig
+};
+
+/// Measured on the lenses themselves, on a grid of pixels (start-up only). Solid angles to about 1 %.
+SkyCoverage sky_coverage(const Rig& rig);
+
+}  // namespace omma

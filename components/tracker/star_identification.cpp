@@ -1,0 +1,173 @@
+#include "components/tracker/star_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omma {
+namespace {
+
+constexpr std::size_t kPatternDots = 40;  // pairs are made of the first so many dots of an order
+constexpr std::size_t kFewestDots = 4;
+constexpr double kAngleSigmas = 3.5;          // tolerance of the angle between two dots
+constexpr double kShortestPair = 0.1;         // of the camera's field: shorter pairs fix the attitude badly
+constexpr double kEntriesPerHypothesis = 32;  // table entries passed over cost as much as one hypothesis
+
+/// Axes fixed by two directions, as columns: along their sum, their difference, and at right angles.
+Eigen::Matrix3d axes_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
+  Eigen::Matrix3d axes;
+  axes.col(0) = (a + b).normalized();
+  axes.col(1) = (a - b).normalized();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes;
+}
+
+double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
+  return 2 * std::atan2((a - b).norm(), (a + b).norm());
+}
+
+}  // namespace
+
+const char* reason(IdentificationStatus status) noexcept {
+  switch (status) {
+    case IdentificationStatus::kIdentified:
+      return "identified";
+    case IdentificationStatus::kTooFewDots:
+      return "too few dots";
+    case IdentificationStatus::kNotVerified:
+      return "no hypothesis verified";
+    case IdentificationStatus::kSearchCut:
+      return "no hypothesis verified within the limit on the search";
+    case IdentificationStatus::kMirrored:
+      return "mirrored image";
+  }
+  return "";
+}
+
+StarIdentification::StarIdentification(const StarCatalogue& catalogue, const SkyCoverage& coverage,
+                                       const IdentificationParameters& parameters) noexcept
+    : catalogue_(catalogue),
+      coverage_(coverage),
+      parameters_(parameters),
+      evidence_(catalogue),
+      matching_(catalogue) {
+  rebuild();
+}
+
+double StarIdentification::ratio_to_accept(std::uint32_t hypothesis) const noexcept {
+  // Each hypothesis h has its part w(h) of the bound: half of the bound in equal parts, the other half as
+  // 1/(h(h+1)), which favours the first ones, made of the brightest dots. The parts add up to one at most,
+  // mirrored search included.
+  const double h = hypothesis;
+  const double part = 0.25 / parameters_.hypothesis_limit + 0.5 / (h * (h + 1));
+  return 1 / (parameters_.false_match_probability * part);
+}
+
+void StarIdentification::identify(std::span<const RigDot> dots, Identification& result) noexcept {
+  result.status = IdentificationStatus::kTooFewDots;
+  result.matches.clear();
+  result.hypotheses = 0;
+  result.log10_false_match = 0;
+  if (dots.size() < kFewestDots) return;
+
+  constexpr Pass kPasses[] = {{DotOrder::kBrightness, 1.0, 0.40},
+                              {DotOrder::kSpread, 1.0, 0.30},
+                              {DotOrder::kBrightness, 2.5, 0.15},
+                              {DotOrder::kSpread, 2.5, 0.15}};
+  const double limit = parameters_.hypothesis_limit;
+  tried_ = 0;
+  double until = 0;
+  for (const Pass& pass : kPasses) {
+    until += pass.share * limit;
+    if (search(dots, pass, until, result)) return;
+  }
+  result.status = tried_ >= limit ? IdentificationStatus::kSearchCut : IdentificationStatus::kNotVerified;
+  if (parameters_.names_mirrored && mirrored(dots, result)) result.status = IdentificationStatus::kMirrored;
+}
+
+bool StarIdentification::search(std::span<const RigDot> dots, const Pass& pass, double until,
+                                Identification& result) noexcept {
+  const auto order = order_.arrange(dots, coverage_, catalogue_.stars().size(), pass.order, pass.widening);
+  const std::size_t count = std::min(order.size(), kPatternDots);
+  for (std::size_t k = 1; k < count; ++k) {
+    for (std::size_t i = 0; i < k; ++i) {
+      if (try_pair(order, i, k, until, result)) return true;
+      if (tried_ >= until) return false;
+    }
+  }
+  return false;
+}
+
+bool StarIdentification::try_pair(std::span<const SearchDot> order, std::size_t i, std::size_t k,
+                                  double until, Identification& result) noexcept {
+  const auto stars = catalogue_.stars();
+  const SearchDot& a = order[i];
+  const SearchDot& b = order[k];
+  const double angle = angle_between(a.ray, b.ray);
+  const double tolerance = kAngleSigmas * std::sqrt(a.variance + b.variance);
+  if (angle > pairs_.largest_angle() + tolerance || angle < kShortestPair * coverage_.camera_angle)
+    return false;
+  if ((a.ray + b.ray).squaredNorm() < 1e-4) return false;  // opposite: they fix no plane
+  const Eigen::Matrix3d rig_axes = axes_of(a.ray, b.ray);
+  bool prepared = false;
+
+  const auto candidates = pairs_.between(angle - tolerance, angle + tolerance);
+  tried_ += double(candidates.size()) / kEntriesPerHypothesis;
+  for (const StarPair& pair : candidates) {
+    for (const bool swapped : {false, true}) {
+      const std::uint16_t first = swapped ? pair.second : pair.first;
+      const std::uint16_t second = swapped ? pair.first : pair.second;
+      if (first >= a.faintest || second >= b.faintest) continue;
+      if (tried_ >= until) return false;
+      if (!prepared) evidence_.rest_on(order, i, k);
+      prepared = true;
+      tried_ += 1;
+      ++result.hypotheses;
+      const Eigen::Matrix3d j2000_from_rig =
+          axes_of(stars[first].direction, stars[second].direction) * rig_axes.transpose();
+      const double accept = ratio_to_accept(result.hypotheses);
+      const double ratio = evidence_.weigh(j2000_from_rig, first, second, accept);
+      if (ratio >= accept && take(order, ratio, result)) return true;
+    }
+  }
+  return false;
+}
+
+bool StarIdentification::take(std::span<const SearchDot> order, double ratio,
+                              Identification& result) noexcept {
+  const StarMatching::Result fit = matching_.refine(order, evidence_.matches(), result.matches);
+  if (!fit.consistent) {
+    result.matches.clear();
+    return false;
+  }
+  result.status = IdentificationStatus::kIdentified;
+  result.rig_from_j2000 = fit.attitude.body_from_reference;
+  result.covariance = fit.attitude.covariance;
+  result.rms = fit.rms;
+  result.log10_false_match =
+      std::log10(parameters_.false_match_probability * ratio_to_accept(result.hypotheses) / ratio);
+  return true;
+}
+
+bool StarIdentification::mirrored(std::span<const RigDot> dots, Identification& result) noexcept {
+  // One camera alone, the one with the most dots: a mirror image of a rig is no rig. Any plane will do.
+  std::array<std::uint32_t, limits::kCameras> count{};
+  for (const RigDot& dot : dots) {
+    if (dot.camera < count.size()) ++count[dot.camera];
+  }
+  const auto most = static_cast<std::uint8_t>(std::max_element(count.begin(), count.end()) - count.begin());
+  std::size_t size = 0;
+  for (const RigDot& dot : dots) {
+    if (dot.camera != most || size == mirror_.size()) continue;
+    mirror_[size] = dot;
+    mirror_[size++].ray.x() *= -1;
+  }
+  if (size < kFewestDots) return false;
+  const std::span<const RigDot> flipped(mirror_.data(), size);
+  const double limit = tried_ + 0.5 * parameters_.hypothesis_limit;
+  const bool found = search(flipped, {DotOrder::kBrightness, 1.0, 0}, 0.5 * (tried_ + limit), result) ||
+                     search(flipped, {DotOrder::kSpread, 1.0, 0}, limit, result);
+  result.matches.clear();
+  return found;
+}
+
+}  // namespace omma

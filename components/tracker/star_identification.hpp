@@ -1,0 +1,95 @@
+// Star identification, lost in space: which dot is which star, and the attitude, from the dots of all cameras
+// jointly. Works on bearings: fields from 10° to the whole sky, one or many cameras, one or two stars in
+// each.
+//
+// Two bright dots are taken to be each pair of catalogue stars at their angle in turn; each such hypothesis
+// is an attitude, which the other dots confirm or not (sky_evidence.hpp). Accepted when the probability of a
+// false match, over all hypotheses tried, is below a bound. No answer is an answer.
+// Mathematics, proof of the bound and figures: docs/algorithms/identification.md.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "components/catalogue/star_catalogue.hpp"
+#include "components/geometry/rig_dot.hpp"
+#include "components/tracker/search_order.hpp"
+#include "components/tracker/sky_coverage.hpp"
+#include "components/tracker/sky_evidence.hpp"
+#include "components/tracker/star_matching.hpp"
+#include "components/tracker/star_pairs.hpp"
+#include "config/limits.hpp"
+#include "fsw/kernel/static_vector.hpp"
+
+namespace omma {
+
+enum class IdentificationStatus : std::uint8_t {
+  kIdentified,
+  kTooFewDots,   ///< fewer than four dots, or so few that no match could be told from chance
+  kNotVerified,  ///< every hypothesis the dots allow was tried and none explains them
+  kSearchCut,    ///< the same, but the hypothesis limit came first
+  kMirrored,     ///< the sky is there, seen in a mirror: the image or the lens file is flipped
+};
+
+/// One clause for an operator, for instance "no hypothesis verified".
+const char* reason(IdentificationStatus status) noexcept;
+
+struct IdentificationParameters {
+  double false_match_probability = 1e-7;   ///< bound, over all hypotheses tried for one set of dots
+  std::uint32_t hypothesis_limit = 60000;  ///< bound on the work
+  bool names_mirrored = true;  ///< when nothing fits, look whether a mirror image would (half the work again)
+};
+
+struct Identification {
+  IdentificationStatus status = IdentificationStatus::kTooFewDots;
+  Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< small rotation, rig frame [rad²]
+  StaticVector<StarMatch, limits::kStarPairs> matches;   ///< empty unless identified
+  double rms = 0;                                        ///< angle between dots and their stars [rad]
+  std::uint32_t hypotheses = 0;                          ///< tried, all passes
+  double log10_false_match = 0;  ///< of the proven bound on the probability that this answer is false
+};
+
+/// Holds its tables and scratch space (2 MB): keep it in static storage or on the heap, not on the stack.
+class StarIdentification {
+ public:
+  /// Builds the table of pairs (start-up; 5 to 50 ms). @param catalogue must outlive this
+  StarIdentification(const StarCatalogue& catalogue, const SkyCoverage& coverage,
+                     const IdentificationParameters& parameters = {}) noexcept;
+
+  /// The tables again after the catalogue was rebuilt (another epoch).
+  void rebuild() noexcept { pairs_.build(catalogue_, coverage_); }
+
+  /// @param dots  of all cameras, any order; sigma must include what the lens calibration does not know
+  void identify(std::span<const RigDot> dots, Identification& result) noexcept;
+
+  const StarPairs& pairs() const { return pairs_; }
+
+ private:
+  struct Pass {
+    DotOrder order;
+    double widening;  // of every dot's sigma, for lenses worse than they say
+    double share;     // of the hypothesis limit
+  };
+
+  bool search(std::span<const RigDot> dots, const Pass& pass, double until, Identification& result) noexcept;
+  bool try_pair(std::span<const SearchDot> order, std::size_t i, std::size_t k, double until,
+                Identification& result) noexcept;
+  bool take(std::span<const SearchDot> order, double ratio, Identification& result) noexcept;
+  bool mirrored(std::span<const RigDot> dots, Identification& result) noexcept;
+  double ratio_to_accept(std::uint32_t hypothesis) const noexcept;
+
+  const StarCatalogue& catalogue_;
+  SkyCoverage coverage_;
+  IdentificationParameters parameters_;
+  StarPairs pairs_;
+  SearchOrder order_;
+  SkyEvidence evidence_;
+  StarMatching matching_;
+  std::array<RigDot, limits::kDotsPerCamera> mirror_;
+  double tried_ = 0;  // hypotheses and the table entries looked at for them, in units of one hypothesis
+};
+
+}  // namespace omma

@@ -1,0 +1,122 @@
+// Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes. `--trials N`
+// (10000 for the full table; 100000 skies of false dots alone are ten times N).
+#include <cstdio>
+#include <memory>
+#include <numbers>
+
+#include "tests/bench/benches.hpp"
+#include "tests/bench/measure.hpp"
+#include "tests/bench/sky_problem.hpp"
+
+namespace omma {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Case {
+  const char* name;
+  Rig rig;
+  SkyProblemOptions options;
+  double resolution_deg;  // stars closer than this are one dot
+};
+
+void run(const Case& c, int trials) {
+  const auto catalogue =
+      std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, c.resolution_deg * kDegree});
+  const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig));
+  const auto answer = std::make_unique<Identification>();
+  std::mt19937_64 random(2010);
+  std::vector<double> times;
+  std::vector<double> hypotheses;
+  std::vector<double> dots;
+  int right = 0;
+  int wrong = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const SkyProblem problem = random_sky(c.rig, catalogue->stars(), c.options, random);
+    times.push_back(microseconds([&] { identification->identify(problem.dots, *answer); }));
+    const SkyVerdict verdict = judge(problem, *answer);
+    right += verdict == SkyVerdict::kRight ? 1 : 0;
+    wrong += verdict == SkyVerdict::kWrong ? 1 : 0;
+    hypotheses.push_back(answer->hypotheses);
+    dots.push_back(double(problem.dots.size()));
+  }
+  std::printf("%-46s %6d %5.0f %5.0f %8.3f %6d %8.0f %8.0f %8.0f %8.0f %8.0f\n", c.name, trials,
+              quantile(dots, 0.5), quantile(dots, 0.0), 100.0 * right / trials, wrong, quantile(times, 0.5),
+              quantile(times, 0.99), quantile(times, 1.0), quantile(hypotheses, 0.5),
+              quantile(hypotheses, 1.0));
+  std::fflush(stdout);
+}
+
+void run_nothing_there(int trials) {
+  const Rig rig = equidistant_rig(3, 122);
+  const auto catalogue =
+      std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, 0.25 * kDegree});
+  const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(rig));
+  const auto answer = std::make_unique<Identification>();
+  std::mt19937_64 random(2010);
+  std::vector<double> times;
+  std::vector<double> hypotheses;
+  int answers = 0;
+  SkyProblemOptions options;
+  options.stars_per_camera = 1;
+  for (int trial = 0; trial < trials; ++trial) {
+    options.false_on_sphere = 5 + static_cast<int>(random() % 300);
+    options.noise_px = 0.1 + 0.1 * double(random() % 5);
+    SkyProblem problem = random_sky(rig, catalogue->stars(), options, random);
+    std::erase_if(problem.dots, [&](const RigDot& dot) { return problem.hr[dot.index] != 0; });
+    times.push_back(microseconds([&] { identification->identify(problem.dots, *answer); }));
+    answers += answer->status == IdentificationStatus::kIdentified ||
+               answer->status == IdentificationStatus::kMirrored;
+    hypotheses.push_back(answer->hypotheses);
+  }
+  std::printf("%-46s %6d answers %d; us med %.0f max %.0f; hypotheses med %.0f max %.0f\n",
+              "5 to 300 false dots alone, 0.1 to 0.5 px", trials, answers, quantile(times, 0.5),
+              quantile(times, 1.0), quantile(hypotheses, 0.5), quantile(hypotheses, 1.0));
+}
+
+}  // namespace
+
+int bench_identify(int argc, char** argv) {
+  const int trials = option(argc, argv, "--trials", 200);
+  std::printf("%-46s %6s %5s %5s %8s %6s %8s %8s %8s %8s %8s\n", "identify", "trials", "dots", "least",
+              "solved%", "wrong", "med us", "p99 us", "max us", "hyp med", "hyp max");
+  const Rig three = equidistant_rig(3, 122);
+  const Case cases[] = {
+      {"3 x 122 deg, V<4.25, 0.1 px", three, {}, 0.25},
+      {"3 x 122 deg, V<4.25, 0.5 px", three, {.noise_px = 0.5}, 0.25},
+      {"3 x 122 deg, V<4.25, 0.2 px, lens 0.5 px off", three, {.noise_px = 0.2, .lens_error_px = 0.5}, 0.25},
+      {"3 x 122 deg, 2 brightest each, 0.1 px", three, {.stars_per_camera = 2}, 0.25},
+      {"3 x 122 deg, 5 brightest each, 0.3 px", three, {.noise_px = 0.3, .stars_per_camera = 5}, 0.25},
+      {"1 x 60 deg, V<4.25, 0.2 px", equidistant_rig(1, 60), {.noise_px = 0.2}, 0.15},
+      {"1 x 60 deg, V<5, 0.2 px", equidistant_rig(1, 60), {.magnitude_limit = 5.0F, .noise_px = 0.2}, 0.15},
+      {"1 x 122 deg, V<4.25, 0.2 px", equidistant_rig(1, 122), {.noise_px = 0.2}, 0.25},
+      {"1 x 187 deg, V<4.25, 0.2 px", equidistant_rig(1, 187), {.noise_px = 0.2}, 0.4},
+      {"1 x 20 deg pinhole, V<6.5, 0.2 px",
+       pinhole_rig(20),
+       {.magnitude_limit = 6.5F, .noise_px = 0.2},
+       0.04},
+      {"1 x 10 deg pinhole, V<6.5, 0.2 px",
+       pinhole_rig(10),
+       {.magnitude_limit = 6.5F, .noise_px = 0.2},
+       0.02},
+      {"3 x 122 deg, half the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.5}, 0.25},
+      {"3 x 122 deg, 300 false on the sphere, 0.2 px",
+       three,
+       {.noise_px = 0.2, .false_on_sphere = 300},
+       0.25},
+      {"1 x 122 deg, 300 false on the sphere, 0.2 px",
+       equidistant_rig(1, 122),
+       {.noise_px = 0.2, .false_on_sphere = 300},
+       0.25},
+      {"1 x 122 deg, half the dots false, 0.5 px",
+       equidistant_rig(1, 122),
+       {.noise_px = 0.5, .false_fraction = 0.5},
+       0.25},
+      {"3 x 122 deg, 80 % of the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.8}, 0.25},
+  };
+  for (const Case& c : cases) run(c, trials);
+  run_nothing_there(10 * trials);
+  return 0;
+}
+
+}  // namespace omma

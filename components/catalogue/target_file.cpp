@@ -1,0 +1,106 @@
+#include "components/catalogue/target_file.hpp"
+
+#include <array>
+#include <vector>
+
+#include "fsw/kernel/input_error.hpp"
+#include "fsw/services/text_input.hpp"
+
+namespace omma {
+namespace {
+
+constexpr std::array<const char*, 6> kColumns = {"id", "x", "y", "z", "group", "type"};
+
+// Between tabs a field may be empty, so that an empty id is seen as one.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t tab = line.find('\t');
+    std::string_view field = line.substr(0, tab);
+    while (field.starts_with(' ')) field.remove_prefix(1);
+    while (field.ends_with(' ')) field.remove_suffix(1);
+    fields.push_back(field);
+    if (tab == std::string_view::npos) return fields;
+    line.remove_prefix(tab + 1);
+  }
+}
+
+class TargetLine {
+ public:
+  TargetLine(std::string_view line, const std::string& file, int number)
+      : fields_(fields_of(line)), file_(file), number_(number) {
+    if (fields_.size() != kColumns.size()) {
+      throw InputError(file_, number_, "target", "6 fields between tabs: id x y z group type",
+                       std::to_string(fields_.size()));
+    }
+  }
+
+  InputError error(std::size_t column, std::string_view expected) const {
+    return {file_, number_, kColumns[column], expected,
+            fields_[column].empty() ? "nothing" : excerpt(fields_[column])};
+  }
+
+  Target target() const {
+    if (fields_[0].empty()) throw error(0, "a name");
+    if (fields_[0].size() > limits::kNameLength) {
+      throw error(0, "at most " + std::to_string(limits::kNameLength) + " characters (limits::kNameLength)");
+    }
+    Target target;
+    target.id = Name(fields_[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto value = finite_number(fields_[i + 1]);
+      if (!value) throw error(i + 1, "a finite number of metres");
+      target.position[static_cast<Eigen::Index>(i)] = *value;
+    }
+    const auto group = whole_number(fields_[4]);
+    if (!group) throw error(4, "a whole number");
+    const auto type = whole_number(fields_[5]);
+    if (!type || (*type != 0 && *type != 1)) throw error(5, "0 (dark dot on light) or 1 (light dot on dark)");
+    target.group = *group;
+    target.type = *type;
+    return target;
+  }
+
+ private:
+  std::vector<std::string_view> fields_;
+  const std::string& file_;
+  int number_;
+};
+
+bool is_header(std::string_view line) {
+  const auto fields = fields_of(line);
+  return fields.size() == kColumns.size() && fields[0] == kColumns[0] && fields[1] == kColumns[1];
+}
+
+}  // namespace
+
+TargetBody targets_from_text(std::string_view text, const std::string& file) {
+  TargetBody body;
+  int number = 0;
+  bool first = true;
+  for (const std::string_view line : lines_of(text)) {
+    ++number;
+    if (line.find_first_not_of(" \t") == std::string_view::npos || line.starts_with('#')) continue;
+    const bool header = first && is_header(line);
+    first = false;
+    if (header) continue;
+    const TargetLine entry(line, file, number);
+    const Target target = entry.target();
+    for (const Target& other : body.targets) {
+      if (other.id == target.id) throw entry.error(0, "an id no other target has");
+    }
+    if (!body.targets.push_back(target)) {
+      throw InputError(file, number, "targets",
+                       "at most " + std::to_string(limits::kTargetsPerBody) + " (limits::kTargetsPerBody)",
+                       "more");
+    }
+  }
+  if (body.targets.empty()) throw InputError(file, number, "targets", "at least one", "none");
+  return body;
+}
+
+TargetBody read_target_file(const std::filesystem::path& file) {
+  return targets_from_text(read_text(file), file.string());
+}
+
+}  // namespace omma

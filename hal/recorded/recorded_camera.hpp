@@ -1,0 +1,93 @@
+// Plays a recording as a camera: <top>/<camera>/<camera>_<n>.png, where n is the number of the trigger
+// (leading zeros or not). A thread of its own reads ahead, because decoding allocates and takes milliseconds;
+// `grab` only takes what lies ready.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "hal/camera.hpp"
+#include "hal/recorded/image_file.hpp"
+
+namespace omma {
+
+/// What `grab` does where the frame exists but is not decoded yet.
+enum class Playback : std::uint8_t {
+  kLockstep,  ///< wait for it (a futex): the replay is complete and repeatable, as fast as the disk lets it
+  kRealTime,  ///< report it missing: `grab` never waits
+};
+
+struct RecordedCameraOptions {
+  Playback playback = Playback::kLockstep;
+  int width = 0;   ///< every frame must have this width and height [px], the lens's; 0: any, but all the same
+  int height = 0;  ///< [px]
+  int bits = 0;    ///< 8 or 16, the same way
+  std::uint16_t white_level = 0;  ///< of the sensor, where the files do not know it; 0: as the files say
+};
+
+class RecordedCamera final : public CameraDriver {
+ public:
+  /// Looks at the header of every frame, sizes the buffers and starts reading ahead.
+  /// @throws InputError: no folder, no frame in it, two files with one number, a file that is no PNG, a frame
+  /// of
+  ///         another size or depth than the options or the first frame
+  RecordedCamera(const std::filesystem::path& top, const std::string& camera,
+                 const RecordedCameraOptions& options);
+  ~RecordedCamera() override;
+  RecordedCamera(const RecordedCamera&) = delete;
+  RecordedCamera& operator=(const RecordedCamera&) = delete;
+
+  std::string_view driver_name() const override { return "recorded"; }
+  /// True when the last frame has been asked for.
+  bool at_end() const noexcept override { return asked_.load(std::memory_order_relaxed) > last_number(); }
+  /// The exposure midpoint is the trigger's time: a recording holds no better one. Numbers must not fall; a
+  /// smaller number than before is missing. A file that cannot be decoded is missing and counted. Real time:
+  /// no wait; the only call to the system wakes the reading thread.
+  Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept override;
+
+  std::uint64_t first_number() const noexcept { return files_.front().number; }
+  std::uint64_t last_number() const noexcept { return files_.back().number; }
+  std::size_t frames() const noexcept { return files_.size(); }
+  /// Frames so far whose file could not be decoded (a torn file, a disk error).
+  std::uint32_t unreadable() const noexcept { return unreadable_.load(std::memory_order_relaxed); }
+
+ private:
+  static constexpr std::uint32_t kSlots = 4;  // frames read ahead, the one in use included
+
+  struct File {
+    std::uint64_t number = 0;
+    std::filesystem::path path;
+  };
+  struct Slot {
+    Image image;
+    std::uint64_t number = 0;
+    bool readable = false;
+  };
+
+  static std::vector<File> find_files(const std::filesystem::path& folder, const std::string& camera);
+  void check_headers(const RecordedCameraOptions& options) const;
+  void read_ahead();
+  void fill(Slot& slot, const File& file, std::vector<std::byte>& bytes);
+  bool wait_for_free_slot(std::uint32_t filled);
+
+  std::vector<File> files_;  // by rising number
+  Playback playback_;
+  std::uint16_t white_level_;
+  // A ring with one writer (the reading thread counts filled_ up) and one reader (grab counts released_ up).
+  // 32 bits, because that is what a futex waits on; both counters may wrap.
+  std::array<Slot, kSlots> slots_;
+  std::atomic<std::uint32_t> filled_{0};
+  std::atomic<std::uint32_t> released_{0};
+  std::atomic<std::uint64_t> asked_{0};  // one more than the largest number asked for
+  std::atomic<std::uint32_t> unreadable_{0};
+  std::atomic<bool> stop_{false};
+  std::thread reader_;
+};
+
+}  // namespace omma

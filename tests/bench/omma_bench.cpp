@@ -18,6 +18,8 @@ constexpr Bench kBenches[] = {
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
+    {"target_identification", omma::bench_target_identification,
+     "targets from an unlabelled cloud of dots: solved, wrong, left open, time"},
 };
 
 }  // namespace

@@ -1,0 +1,157 @@
+#include "components/tracker/target_identification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/estimation/three_point_pose.hpp"
+#include "components/tracker/dot_patches.hpp"
+#include "components/tracker/target_patches.hpp"
+#include "components/tracker/target_verification.hpp"
+
+namespace omma {
+namespace {
+
+constexpr std::size_t kMostCandidates = 4096;  // foursomes of targets looked at for one foursome of dots
+constexpr std::size_t kMostSurvivors = 8;      // carried to all dots
+/// Two labellings whose log-chances differ by less explain the dots equally well.
+constexpr double kLabellingMargin = 12.0;
+
+struct Survivor {
+  Pose pose;
+  std::size_t explained = 0;
+};
+
+/// The best few, most explained first; the earlier stays before the later.
+void keep(const Survivor& survivor, StaticVector<Survivor, kMostSurvivors>& best) noexcept {
+  if (best.full()) {
+    if (best.back().explained >= survivor.explained) return;
+    best.pop_back();
+  }
+  best.push_back(survivor);
+  for (std::size_t i = best.size() - 1; i > 0 && best[i - 1].explained < best[i].explained; --i)
+    std::swap(best[i - 1], best[i]);
+}
+
+}  // namespace
+
+struct TargetIdentifier::Work {
+  Work(const TargetBody& given, const TargetIdentifierOptions& with)
+      : body(given), options(with), patches(given, with.tilt_factor), verification(given, with.gate) {
+    const double part = with.least_part * static_cast<double>(given.targets.size());
+    least_explained = std::max<std::size_t>(4, static_cast<std::size_t>(std::ceil(part)));
+    least_nearby = std::clamp<std::size_t>(least_explained, 4, 5);
+  }
+
+  void search(std::span<const RigDot> given, TargetIdentification& result) noexcept;
+  void collect_survivors(const DotFoursome& foursome, TargetIdentification& result) noexcept;
+  /// Completes the survivors; true where one of them is an answer or the labelling is ambiguous.
+  bool judge(TargetIdentification& result) noexcept;
+
+  TargetBody body;
+  TargetIdentifierOptions options;
+  TargetPatches patches;
+  TargetVerification verification;
+  DotPatches foursomes;
+  std::span<const RigDot> dots;
+  std::size_t least_explained = 4, least_nearby = 4;
+  std::array<PatchLabels, kMostCandidates> candidates;
+  StaticVector<Survivor, kMostSurvivors> survivors;
+  TargetLabelling best, second, candidate;
+};
+
+TargetIdentifier::TargetIdentifier(const TargetBody& body, const TargetIdentifierOptions& options)
+    : work_(std::make_unique<Work>(body, options)) {}
+TargetIdentifier::~TargetIdentifier() = default;
+TargetIdentifier::TargetIdentifier(TargetIdentifier&&) noexcept = default;
+TargetIdentifier& TargetIdentifier::operator=(TargetIdentifier&&) noexcept = default;
+
+TargetIdentification TargetIdentifier::identify(std::span<const RigDot> dots) noexcept {
+  TargetIdentification result;
+  Work& work = *work_;
+  if (work.body.targets.size() < 4) {
+    result.status = TargetIdentificationStatus::kTooFewTargets;
+  } else if (!work.foursomes.start(dots, work.options.gate)) {
+    result.status = TargetIdentificationStatus::kTooFewDots;
+  } else {
+    work.search(dots, result);
+  }
+  return result;
+}
+
+void TargetIdentifier::Work::search(std::span<const RigDot> given, TargetIdentification& result) noexcept {
+  dots = given;
+  verification.start(given);
+  DotFoursome foursome;
+  while (foursomes.next(foursome)) {
+    if (result.foursomes == options.most_foursomes || result.hypotheses >= options.most_hypotheses) {
+      result.status = TargetIdentificationStatus::kWorkLimit;
+      return;
+    }
+    ++result.foursomes;
+    collect_survivors(foursome, result);
+    if (judge(result)) return;
+  }
+  result.status = TargetIdentificationStatus::kNoMatch;
+}
+
+void TargetIdentifier::Work::collect_survivors(const DotFoursome& foursome,
+                                               TargetIdentification& result) noexcept {
+  survivors.clear();
+  const std::size_t count = patches.matching(foursome.patch, candidates);
+  if (count == 0) return;
+  verification.look_at(foursome, foursomes.around(foursome.seed));
+  ThreePoints three;
+  for (std::size_t i = 0; i < 3; ++i) {
+    three.origin[i] = dots[foursome.dots[i]].origin;
+    three.ray[i] = dots[foursome.dots[i]].ray;
+  }
+  const RigDot& fourth = dots[foursome.dots[3]];
+  const double reach = options.gate * foursome.spread;
+  for (std::size_t c = 0; c < count; ++c) {
+    const PatchLabels& labels = candidates[c];
+    for (std::size_t i = 0; i < 3; ++i) three.point[i] = body.targets[labels[i]].position;
+    ++result.hypotheses;
+    std::array<Pose, kMostThreePointPoses> poses;
+    const int found = central_three_point(three, poses);
+    for (int p = 0; p < found; ++p) {
+      const Pose& pose = poses[static_cast<std::size_t>(p)];
+      const Eigen::Vector3d seen = (pose * body.targets[labels[3]].position - fourth.origin).normalized();
+      if (!((fourth.whitener * seen).squaredNorm() < reach * reach)) continue;
+      const std::size_t explained = verification.explained_nearby(pose);
+      if (explained >= least_nearby) keep({pose, explained}, survivors);
+    }
+  }
+}
+
+bool TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
+  bool has_best = false, has_second = false;
+  for (const Survivor& survivor : survivors) {
+    ++result.verified;
+    if (!verification.complete(survivor.pose, candidate)) continue;
+    if (candidate.log_chance > options.largest_log_chance || candidate.pairs.size() < least_explained)
+      continue;
+    if (has_best && same_labelling(candidate, best)) {
+      if (candidate.log_chance < best.log_chance) best = candidate;
+    } else if (!has_best || candidate.log_chance < best.log_chance) {
+      if (has_best) {
+        second = best;
+        has_second = true;
+      }
+      best = candidate;
+      has_best = true;
+    } else if (!has_second || candidate.log_chance < second.log_chance) {
+      second = candidate;
+      has_second = true;
+    }
+  }
+  if (!has_best) return false;
+  const bool ambiguous = has_second && second.log_chance - best.log_chance < kLabellingMargin;
+  result.status =
+      ambiguous ? TargetIdentificationStatus::kAmbiguous : TargetIdentificationStatus::kIdentified;
+  result.pose = best.pose;
+  result.pairs = best.pairs;
+  result.log_chance = best.log_chance;
+  return true;
+}
+
+}  // namespace omma

@@ -1,0 +1,160 @@
+#include "components/tracker/target_patches.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace omma {
+namespace {
+
+constexpr std::size_t kNeighbours = 10;   // of a target, that share its patches
+constexpr double kThinnest = 0.02;        // thickness over width below which a body is a plane
+constexpr double kFlattestTriple = 0.08;  // sine of the angle between a triple's edges
+constexpr double kFarthestFourth =
+    1.4;                         // dots choose the largest of their triangles: coordinates stay within 1
+constexpr double kSlack = 0.01;  // added to each coordinate's tolerance
+
+std::vector<std::uint8_t> neighbours_of(const TargetBody& body, std::size_t target) {
+  std::vector<std::uint8_t> others;
+  for (std::size_t i = 0; i < body.targets.size(); ++i)
+    if (i != target) others.push_back(static_cast<std::uint8_t>(i));
+  const auto squared_distance = [&](std::uint8_t i) {
+    return (body.targets[i].position - body.targets[target].position).squaredNorm();
+  };
+  std::stable_sort(others.begin(), others.end(),
+                   [&](std::uint8_t a, std::uint8_t b) { return squared_distance(a) < squared_distance(b); });
+  if (others.size() > kNeighbours) others.resize(kNeighbours);
+  return others;
+}
+
+bool is_flat(const TargetBody& body) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Target& target : body.targets) mean += target.position;
+  mean /= static_cast<double>(std::max<std::size_t>(1, body.targets.size()));
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Target& target : body.targets)
+    scatter += (target.position - mean) * (target.position - mean).transpose();
+  const Eigen::Vector3d spread = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvalues();
+  return spread[0] <= kThinnest * kThinnest * spread[1];
+}
+
+/// How far perspective may move the affine coordinates of a fourth point off their parallel-projection
+/// values, to first order, when the patch is tilted by up to atan(tilt).
+void perspective_reach(const DotPatch& patch, double tilt, double& alpha_reach, double& beta_reach) noexcept {
+  const double a = patch.alpha, b = patch.beta;
+  alpha_reach = tilt * std::abs(a) * ((1 - a) * patch.u - b * patch.v).norm();
+  beta_reach = tilt * std::abs(b) * ((1 - b) * patch.v - a * patch.u).norm();
+}
+
+}  // namespace
+
+TargetPatches::TargetPatches(const TargetBody& body, double tilt_factor)
+    : tilt_factor_(tilt_factor), flat_(is_flat(body)) {
+  for (std::size_t i = 0; i < body.targets.size(); ++i) {
+    const std::vector<std::uint8_t> neighbours = neighbours_of(body, i);
+    for (const std::uint8_t j : neighbours)
+      for (const std::uint8_t k : neighbours)
+        if (j != k) add_triple(body, neighbours, static_cast<std::uint8_t>(i), j, k);
+  }
+  if (flat_)
+    std::stable_sort(fourths_.begin(), fourths_.end(),
+                     [](const Fourth& a, const Fourth& b) { return a.alpha < b.alpha; });
+}
+
+void TargetPatches::add_triple(const TargetBody& body, std::span<const std::uint8_t> neighbours,
+                               std::uint8_t i, std::uint8_t j, std::uint8_t k) {
+  const Eigen::Vector3d& origin = body.targets[i].position;
+  const Eigen::Vector3d e1 = body.targets[j].position - origin, e2 = body.targets[k].position - origin;
+  const Eigen::Vector3d cross = e1.cross(e2);
+  const double area = cross.norm();
+  if (!(area > kFlattestTriple * e1.norm() * e2.norm())) return;
+  const Eigen::Vector3d n = cross / area;
+  Triple triple{{i, j, k},
+                static_cast<float>(e1.squaredNorm()),
+                static_cast<float>(e1.dot(e2)),
+                static_cast<float>(e2.squaredNorm()),
+                static_cast<float>(area),
+                static_cast<std::uint32_t>(fourths_.size()),
+                0};
+  for (const std::uint8_t l : neighbours) {
+    if (l == j || l == k) continue;
+    const Eigen::Vector3d d = body.targets[l].position - origin;
+    const double alpha = d.cross(e2).dot(n) / area, beta = e1.cross(d).dot(n) / area;
+    const bool in_reach = std::abs(alpha) < kFarthestFourth && std::abs(beta) < kFarthestFourth &&
+                          std::abs(1 - alpha - beta) < kFarthestFourth;
+    if (flat_ && !in_reach) continue;
+    fourths_.push_back({static_cast<float>(alpha), static_cast<float>(beta), static_cast<float>(d.dot(n)),
+                        static_cast<std::uint32_t>(triples_.size()), l});
+    ++triple.count;
+  }
+  if (triple.count > 0) triples_.push_back(triple);
+}
+
+std::size_t TargetPatches::matching(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
+  return flat_ ? matching_flat(patch, out) : matching_solid(patch, out);
+}
+
+std::size_t TargetPatches::matching_flat(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
+  double alpha_reach, beta_reach;
+  perspective_reach(patch, tilt_factor_, alpha_reach, beta_reach);
+  const auto alpha = static_cast<float>(patch.alpha), beta = static_cast<float>(patch.beta);
+  const auto alpha_tolerance = static_cast<float>(alpha_reach + patch.alpha_noise + kSlack);
+  const auto beta_tolerance = static_cast<float>(beta_reach + patch.beta_noise + kSlack);
+  auto fourth = std::lower_bound(fourths_.begin(), fourths_.end(), alpha - alpha_tolerance,
+                                 [](const Fourth& entry, float value) { return entry.alpha < value; });
+  std::size_t count = 0;
+  for (; fourth != fourths_.end() && fourth->alpha <= alpha + alpha_tolerance; ++fourth) {
+    if (!(std::abs(fourth->beta - beta) <= beta_tolerance)) continue;
+    if (count == out.size()) break;
+    const Triple& triple = triples_[fourth->triple];
+    out[count++] = {triple.targets[0], triple.targets[1], triple.targets[2], fourth->target};
+  }
+  return count;
+}
+
+std::size_t TargetPatches::matching_solid(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
+  double alpha_reach, beta_reach;
+  perspective_reach(patch, tilt_factor_, alpha_reach, beta_reach);
+  const Eigen::Vector2d &u = patch.u, &v = patch.v;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  const double area = u.x() * v.y() - u.y() * v.x();
+  std::size_t count = 0;
+  for (const Triple& triple : triples_) {
+    // Squared scale S of parallel projection: (S g11 − uu)(S g22 − vv) = (S g12 − uv)², the larger root.
+    const double g11 = triple.g11, g12 = triple.g12, g22 = triple.g22;
+    const double gram = g11 * g22 - g12 * g12;
+    const double b = 0.5 * (g11 * vv + g22 * uu - 2 * g12 * uv);
+    const double discriminant = std::max(0.0, b * b - gram * area * area);
+    const double scale2 = (b + std::sqrt(discriminant)) / gram;
+    const double scale = std::sqrt(scale2);
+    // Depths of the two edges; their common sign is free.
+    double z1 = std::sqrt(std::max(0.0, scale2 * g11 - uu));
+    double z2 = std::sqrt(std::max(0.0, scale2 * g22 - vv));
+    if (scale2 * g12 - uv < 0) z2 = -z2;
+    // The normal of the three, one metre long, in affine coordinates of the image.
+    const double k = 1.0 / (scale * triple.area);
+    const Eigen::Vector2d normal((u.y() * z2 - z1 * v.y()) * k, (z1 * v.x() - u.x() * z2) * k);
+    const double normal_alpha = (normal.x() * v.y() - normal.y() * v.x()) / area;
+    const double normal_beta = (u.x() * normal.y() - u.y() * normal.x()) / area;
+    for (std::uint32_t f = triple.first; f < triple.first + triple.count; ++f) {
+      const Fourth& fourth = fourths_[f];
+      // Seen in perspective, what stands out of the plane of the three shrinks or grows with its depth.
+      const double depth = scale * std::abs(fourth.gamma);
+      const double alpha_tolerance =
+          alpha_reach + patch.alpha_noise + kSlack + depth * (std::abs(patch.alpha) + std::abs(normal_alpha));
+      const double beta_tolerance =
+          beta_reach + patch.beta_noise + kSlack + depth * (std::abs(patch.beta) + std::abs(normal_beta));
+      for (const double sign : {1.0, -1.0}) {
+        const double off_alpha = fourth.alpha + sign * fourth.gamma * normal_alpha - patch.alpha;
+        const double off_beta = fourth.beta + sign * fourth.gamma * normal_beta - patch.beta;
+        if (!(std::abs(off_alpha) <= alpha_tolerance && std::abs(off_beta) <= beta_tolerance)) continue;
+        if (count == out.size()) return count;
+        out[count++] = {triple.targets[0], triple.targets[1], triple.targets[2], fourth.target};
+        break;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace omma

@@ -1,0 +1,228 @@
+#include "components/tracker/target_verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace omma {
+namespace {
+
+/// A tilt the patch does not fix bends what it foretells far from itself: error over squared distance
+/// [1/rad].
+constexpr double kBend = 0.1;
+constexpr int kGrowthRounds = 3;
+
+}  // namespace
+
+bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept {
+  std::size_t shared = 0;
+  for (const TargetPair& p : a.pairs)
+    for (const TargetPair& q : b.pairs) shared += p.dot == q.dot && p.target == q.target ? 1 : 0;
+  return 2 * shared >= std::min(a.pairs.size(), b.pairs.size());
+}
+
+TargetVerification::TargetVerification(const TargetBody& body, double gate) : gate_(gate) {
+  for (const Target& target : body.targets) {
+    targets_.push_back(target.position);
+    centroid_ += target.position;
+  }
+  centroid_ /= static_cast<double>(std::max<std::size_t>(1, targets_.size()));
+  for (const Eigen::Vector3d& target : targets_) radius_ = std::max(radius_, (target - centroid_).norm());
+  for (std::size_t n = 1; n < log_factorial_.size(); ++n)
+    log_factorial_[n] = log_factorial_[n - 1] + std::log(static_cast<double>(n));
+  growing_.cull = CullRule::kNone;
+  growing_.second_minimum = SecondMinimum::kIgnore;
+  growing_.max_iterations = 8;
+  growing_.largest_rotation_sigma = growing_.largest_position_sigma = std::numeric_limits<double>::infinity();
+  final_.gate = gate;
+}
+
+void TargetVerification::look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept {
+  middle_ = foursome.middle;
+  plane_ = tangent_basis(middle_);
+  patch_origin_ = dots_[foursome.dots[0]].origin;
+  patch_sigma_ = dots_[foursome.dots[0]].sigma;
+  Eigen::Matrix2d edges;
+  edges << foursome.patch.u, foursome.patch.v;
+  const double determinant = edges(0, 0) * edges(1, 1) - edges(0, 1) * edges(1, 0);
+  affine_from_plane_ << edges(1, 1), -edges(0, 1), -edges(1, 0), edges(0, 0);
+  affine_from_plane_ /= determinant;
+  const Eigen::Vector3d& first = dots_[foursome.dots[0]].ray;
+  patch_first_ = plane_.transpose() * first / first.dot(middle_);
+  near_.clear();
+  for (const std::uint16_t dot : near) {
+    const double depth = dots_[dot].ray.dot(middle_);
+    if (!(depth > 0.1)) continue;
+    near_at_[near_.size()] = plane_.transpose() * dots_[dot].ray / depth;
+    near_.push_back(dot);
+  }
+}
+
+std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noexcept {
+  const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
+  const Eigen::Vector3d offset = rig_from_body.translation - patch_origin_;
+  const Eigen::Matrix<double, 2, 3> across = plane_.transpose();
+  std::uint32_t taken = 0;
+  pairs_.clear();
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    const Eigen::Vector3d d = rotation * targets_[t] + offset;
+    const double depth = d.dot(middle_);
+    if (!(depth > 0)) continue;
+    const Eigen::Vector2d at = across * d / depth;
+    const Eigen::Vector2d affine = affine_from_plane_ * (at - patch_first_);
+    const double rest = 1 - affine.x() - affine.y();
+    const double spread = std::sqrt(1 + affine.squaredNorm() + rest * rest);
+    const double reach =
+        gate_ * patch_sigma_ * spread + kBend * (at.squaredNorm() * (affine.squaredNorm() > 2 ? 1 : 0));
+    double nearest = reach * reach;
+    std::size_t found = near_.size();
+    for (std::size_t k = 0; k < near_.size(); ++k) {
+      const double distance = (near_at_[k] - at).squaredNorm();
+      if (distance < nearest && (taken >> k & 1U) == 0) {
+        nearest = distance;
+        found = k;
+      }
+    }
+    if (found == near_.size()) continue;
+    taken |= 1U << found;
+    pairs_.push_back({near_[found], static_cast<std::uint16_t>(t)});
+  }
+  return pairs_.size();
+}
+
+bool TargetVerification::complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept {
+  if (explained_nearby(rig_from_body) < 4) return false;
+  solve(rig_from_body, growing_, labelling.pose);
+  for (int round = 0; round < kGrowthRounds; ++round) {
+    if (labelling.pose.status != SolveStatus::kSolved && labelling.pose.status != SolveStatus::kIterationCap)
+      return false;
+    const std::size_t before = pairs_.size();
+    match_everywhere(labelling.pose);
+    if (pairs_.size() < 4) return false;
+    solve(labelling.pose.rig_from_body, growing_, labelling.pose);
+    if (round > 0 && pairs_.size() == before) break;
+  }
+  match_everywhere(labelling.pose);
+  if (pairs_.size() < 4) return false;
+  solve(labelling.pose.rig_from_body, final_, labelling.pose);
+  if (labelling.pose.pairs < 4 || labelling.pose.status == SolveStatus::kInconsistent) return false;
+  labelling.pairs.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (used_[i]) labelling.pairs.push_back(pairs_[i]);
+  pairs_ = labelling.pairs;
+  labelling.log_chance = log_chance(labelling.pose);
+  return true;
+}
+
+void TargetVerification::solve(const Pose& initial, const SolveOptions& options,
+                               PoseSolution& solution) noexcept {
+  sights_.clear();
+  for (const TargetPair& pair : pairs_) {
+    const RigDot& dot = dots_[pair.dot];
+    sights_.push_back({dot.origin, dot.ray, dot.whitener, targets_[pair.target]});
+  }
+  solution = solve_pose(sights_, initial, options, {used_.data(), sights_.size()});
+}
+
+TargetVerification::Region TargetVerification::region(const Pose& pose,
+                                                      const Eigen::Vector3d& origin) const noexcept {
+  Region seen;
+  seen.direction = (pose * centroid_ - origin).normalized();
+  double smallest = 1;
+  for (const Eigen::Vector3d& target : targets_)
+    smallest = std::min(smallest, seen.direction.dot((pose * target - origin).normalized()));
+  seen.radius = std::acos(std::clamp(smallest, -1.0, 1.0));
+  return seen;
+}
+
+void TargetVerification::match_everywhere(const PoseSolution& pose) noexcept {
+  pairs_.clear();
+  for (std::size_t first = 0; first < dots_.size();) {
+    std::size_t last = first + 1;
+    while (last < dots_.size() && dots_[last].camera == dots_[first].camera) ++last;
+    match_camera(pose, dots_.subspan(first, last - first), first);
+    first = last;
+  }
+}
+
+void TargetVerification::match_camera(const PoseSolution& pose, std::span<const RigDot> dots,
+                                      std::size_t first) noexcept {
+  const Eigen::Vector3d origin = dots[0].origin;
+  const Region seen = region(pose.rig_from_body, origin);
+  const double smallest = std::cos(std::min(std::numbers::pi, 1.2 * seen.radius + 0.01));
+  in_region_.clear();
+  for (std::size_t i = 0; i < dots.size(); ++i)
+    if (dots[i].ray.dot(seen.direction) > smallest) in_region_.push_back(static_cast<std::uint16_t>(i));
+  if (in_region_.empty()) return;
+
+  const Eigen::Matrix3d rotation = pose.rig_from_body.rotation.toRotationMatrix();
+  const std::size_t begin = pairs_.size();
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
+    const Eigen::Vector3d turned = rotation * targets_[t];
+    const Eigen::Vector3d d = turned + pose.rig_from_body.translation - origin;
+    const double range2 = d.squaredNorm();
+    const Eigen::Vector3d u = d / std::sqrt(range2);
+    // Variance of the predicted direction, larger axis at most: trace of the position's covariance across the
+    // ray.
+    Eigen::Matrix<double, 3, 6> by_unknowns;
+    by_unknowns << -skew(turned), Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d position = by_unknowns * pose.covariance * by_unknowns.transpose();
+    const double variance = (position.trace() - u.dot(position * u)) / range2;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t found = 0;
+    for (const std::uint16_t i : in_region_) {
+      const RigDot& dot = dots[i];
+      const double reach2 = gate_ * gate_ * (1 + variance / (dot.sigma * dot.sigma));
+      const double distance2 = (dot.whitener * u).squaredNorm();
+      if (!(distance2 < reach2 && distance2 < nearest) || !(dot.ray.dot(u) > 0)) continue;
+      nearest = distance2;
+      found = first + i;
+    }
+    if (!std::isfinite(nearest)) continue;
+    // One dot, one target: the nearer of two claims stays.
+    std::size_t rival = begin;
+    while (rival < pairs_.size() && pairs_[rival].dot != found) ++rival;
+    if (rival < pairs_.size() && distances_[rival] <= nearest) continue;
+    if (rival == pairs_.size() && !pairs_.push_back({})) return;
+    pairs_[rival] = {static_cast<std::uint16_t>(found), static_cast<std::uint16_t>(t)};
+    distances_[rival] = nearest;
+  }
+}
+
+double TargetVerification::log_chance(const PoseSolution& solution) const noexcept {
+  double inside = 0, area = 0, chances = 0, variance = 0;
+  for (std::size_t first = 0; first < dots_.size();) {
+    const Region seen = region(solution.rig_from_body, dots_[first].origin);
+    const double smallest = std::cos(std::min(std::numbers::pi, seen.radius + 3 * dots_[first].sigma));
+    double here = 0;
+    std::size_t i = first;
+    for (; i < dots_.size() && dots_[i].camera == dots_[first].camera; ++i)
+      here += dots_[i].ray.dot(seen.direction) >= smallest ? 1 : 0;
+    if (here > 0) {
+      inside += here;
+      area += 2 * std::numbers::pi * (1 - smallest);
+      chances += static_cast<double>(targets_.size());
+    }
+    first = i;
+  }
+  for (const TargetPair& pair : pairs_) variance += dots_[pair.dot].sigma * dots_[pair.dot].sigma;
+  const std::size_t k = pairs_.size(), n = k - 3;
+  variance /= static_cast<double>(k);
+  const auto more = static_cast<double>(n);
+  const double density = std::max(inside - 3, 1.0) / area;
+  const double m = static_cast<double>(targets_.size()), all = static_cast<double>(dots_.size());
+  // Ways to pair three dots of the neighbourhood with three targets, two poses each, over all neighbourhoods.
+  const double hypotheses = std::log(std::max(1.0, all / inside) * inside * std::max(1.0, inside - 1) *
+                                     std::max(1.0, inside - 2) / 6 * m * (m - 1) * (m - 2) * 2);
+  const auto log_choose = [this](double of, std::size_t k_of) {
+    const auto total = static_cast<std::size_t>(
+        std::clamp(of, static_cast<double>(k_of), static_cast<double>(log_factorial_.size() - 1)));
+    return log_factorial_[total] - log_factorial_[k_of] - log_factorial_[total - k_of];
+  };
+  const double chi2 = std::max(solution.chi2, more);
+  return hypotheses + log_choose(chances - 3, n) +
+         more * std::log(density * std::numbers::pi * variance * chi2) - log_factorial_[n] +
+         0.5 * log_choose(static_cast<double>(k), 3) + std::log(2.0);
+}
+
+}  // namespace omma

@@ -1,0 +1,79 @@
+// From a hypothetical pose to a labelling: which targets the dots explain, first around the patch the pose
+// came from, then everywhere, refined by the solver; and how probable so good a match is by chance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "components/catalogue/target.hpp"
+#include "components/estimation/least_squares.hpp"
+#include "components/geometry/rig_dot.hpp"
+#include "components/tracker/dot_patches.hpp"
+#include "components/tracker/target_identification.hpp"
+
+namespace omma {
+
+/// A pose with the pairs it explains.
+struct TargetLabelling {
+  PoseSolution pose;
+  StaticVector<TargetPair, limits::kTargetPairs> pairs;
+  double log_chance = 0;
+};
+
+/// True where the two give the same target to most of the dots of the smaller.
+bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept;
+
+class TargetVerification {
+ public:
+  TargetVerification(const TargetBody& body, double gate);
+
+  void start(std::span<const RigDot> dots) noexcept { dots_ = dots; }
+  /// @param near  dots around the patch, of the same camera
+  void look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept;
+
+  /// Targets explained by the dots around the patch.
+  std::size_t explained_nearby(const Pose& rig_from_body) noexcept;
+
+  /// Carries the pose to all dots of all cameras. @return false where the pairs do not make a pose
+  bool complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept;
+
+ private:
+  /// The part of the sphere where the body is, for one camera.
+  struct Region {
+    Eigen::Vector3d direction;
+    double radius = 0;  ///< [rad]
+  };
+
+  Region region(const Pose& pose, const Eigen::Vector3d& origin) const noexcept;
+  void match_everywhere(const PoseSolution& pose) noexcept;
+  void match_camera(const PoseSolution& pose, std::span<const RigDot> dots, std::size_t first) noexcept;
+  void solve(const Pose& initial, const SolveOptions& options, PoseSolution& solution) noexcept;
+  double log_chance(const PoseSolution& solution) const noexcept;
+
+  std::vector<Eigen::Vector3d> targets_;
+  Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
+  double radius_ = 0;  ///< of the body about its centroid [m]
+  double gate_;
+  SolveOptions growing_, final_;
+  std::array<double, limits::kTargetPairs + 1> log_factorial_{};
+
+  std::span<const RigDot> dots_;
+  Eigen::Vector3d patch_origin_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle_ = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix<double, 3, 2> plane_ = Eigen::Matrix<double, 3, 2>::Zero();
+  Eigen::Vector2d patch_first_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d affine_from_plane_ = Eigen::Matrix2d::Identity();
+  double patch_sigma_ = 0;
+  StaticVector<std::uint16_t, DotPatches::kNeighbours + 1> near_;
+  std::array<Eigen::Vector2d, DotPatches::kNeighbours + 1> near_at_{};
+
+  StaticVector<TargetPair, limits::kTargetPairs> pairs_;
+  StaticVector<Sight, limits::kTargetPairs> sights_;
+  std::array<std::uint8_t, limits::kTargetPairs> used_{};
+  std::array<double, limits::kTargetPairs> distances_{};  ///< of pairs_, squared, in σ
+  StaticVector<std::uint16_t, limits::kDotsPerCamera> in_region_;
+};
+
+}  // namespace omma

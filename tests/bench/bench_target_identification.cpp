@@ -1,0 +1,99 @@
+// Target identification: share solved, wrong and left open, time, on clouds of dots with clutter and hidden
+// targets (card_problem.hpp).
+#include <cstdio>
+
+#include "components/tracker/target_identification.hpp"
+#include "tests/bench/benches.hpp"
+#include "tests/bench/card_problem.hpp"
+#include "tests/bench/measure.hpp"
+
+namespace omma {
+namespace {
+
+struct Tally {
+  std::vector<double> times;
+  int right = 0, wrong = 0, ambiguous = 0, open = 0;
+  double foursomes = 0, hypotheses = 0, verified = 0;
+};
+
+/// Wrong: an answer in which more than one pair in ten is not the truth.
+bool is_right(const CardProblem& problem, const TargetIdentification& found) {
+  std::size_t wrong = 0;
+  for (const TargetPair& pair : found.pairs) wrong += problem.target_of_dot[pair.dot] != pair.target ? 1 : 0;
+  return 10 * wrong <= found.pairs.size();
+}
+
+void run(const char* name, const CardProblemOptions& options, int trials) {
+  Tally tally;
+  for (int trial = 0; trial < trials; ++trial) {
+    const CardProblem problem = make_card_problem(options, static_cast<std::uint64_t>(trial));
+    TargetIdentifier identifier(problem.body);
+    TargetIdentification found;
+    found = identifier.identify(problem.dots);
+    tally.times.push_back(microseconds([&] { found = identifier.identify(problem.dots); }));
+    tally.foursomes += found.foursomes;
+    tally.hypotheses += found.hypotheses;
+    tally.verified += found.verified;
+    if (found.status == TargetIdentificationStatus::kAmbiguous)
+      ++tally.ambiguous;
+    else if (found.status != TargetIdentificationStatus::kIdentified)
+      ++tally.open;
+    else if (options.body_present && is_right(problem, found))
+      ++tally.right;
+    else
+      ++tally.wrong;
+  }
+  std::printf("%-44s %7.2f %6.2f %6.2f %6.2f %8.0f %8.0f %8.0f %7.1f %8.0f %6.1f\n", name,
+              100.0 * tally.right / trials, 100.0 * tally.wrong / trials, 100.0 * tally.ambiguous / trials,
+              100.0 * tally.open / trials, quantile(tally.times, 0.5), quantile(tally.times, 0.99),
+              quantile(tally.times, 1.0), tally.foursomes / trials, tally.hypotheses / trials,
+              tally.verified / trials);
+}
+
+void table(const char* title, CardProblemOptions options, int trials) {
+  std::printf("\n%-44s %7s %6s %6s %6s %8s %8s %8s %7s %8s %6s\n", title, "right%", "wrong%", "ambig%",
+              "open%", "med us", "p99 us", "max us", "4somes", "poses", "verif");
+  for (const int targets : {5, 8, 12, 25}) {
+    for (const double hidden : {0.0, 0.3}) {
+      for (const double clutter : {0.0, 0.25, 0.5}) {
+        options.targets = targets;
+        options.hidden = hidden;
+        options.clutter = clutter;
+        char name[80];
+        std::snprintf(name, sizeof name, "%d targets, %.0f %% hidden, %.0f %% clutter", targets, 100 * hidden,
+                      100 * clutter);
+        run(name, options, trials);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int bench_target_identification(int argc, char** argv) {
+  const int trials = option(argc, argv, "--trials", 200);
+  CardProblemOptions options;
+  table("card, clutter over the image", options, trials);
+  options.clutter_on_card = true;
+  table("card, clutter on the card", options, trials);
+  options.clutter_on_card = false;
+  options.solid = true;
+  table("solid body, clutter over the image", options, trials);
+  options.solid = false;
+  options.clutter = 0.5;
+  options.body_present = false;
+  std::printf("\n");
+  for (const int targets : {5, 8, 12, 25}) {
+    options.targets = targets;
+    for (const bool on_card : {false, true}) {
+      options.clutter_on_card = on_card;
+      char name[80];
+      std::snprintf(name, sizeof name, "%d targets, body absent, dots %s", targets,
+                    on_card ? "crowded" : "over the image");
+      run(name, options, trials);
+    }
+  }
+  return 0;
+}
+
+}  // namespace omma

@@ -11,6 +11,7 @@ constexpr std::size_t kFewestDots = 4;
 constexpr double kAngleSigmas = 3.5;          // tolerance of the angle between two dots
 constexpr double kShortestPair = 0.1;         // of the camera's field: shorter pairs fix the attitude badly
 constexpr double kEntriesPerHypothesis = 32;  // table entries passed over cost as much as one hypothesis
+constexpr double kRefinementCost = 500;       // of one refinement, in hypotheses
 
 /// Axes fixed by two directions, as columns: along their sum, their difference, and at right angles.
 Eigen::Matrix3d axes_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
@@ -69,15 +70,17 @@ void StarIdentification::identify(std::span<const RigDot> dots, Identification& 
   result.log10_false_match = 0;
   if (dots.size() < kFewestDots) return;
 
-  constexpr Pass kPasses[] = {{DotOrder::kBrightness, 1.0, 0.40},
-                              {DotOrder::kSpread, 1.0, 0.30},
-                              {DotOrder::kBrightness, 2.5, 0.15},
-                              {DotOrder::kSpread, 2.5, 0.15}};
+  constexpr Pass kPasses[] = {{DotOrder::kBrightness, 1.0, 0.35},
+                              {DotOrder::kSpread, 1.0, 0.25},
+                              {DotOrder::kBrightness, 3.0, 0.15},
+                              {DotOrder::kSpread, 3.0, 0.10},
+                              {DotOrder::kBrightness, 8.0, 0.15}};
   const double limit = parameters_.hypothesis_limit;
   tried_ = 0;
   double until = 0;
   for (const Pass& pass : kPasses) {
     until += pass.share * limit;
+    result.widening = pass.widening;
     if (search(dots, pass, until, result)) return;
   }
   result.status = tried_ >= limit ? IdentificationStatus::kSearchCut : IdentificationStatus::kNotVerified;
@@ -135,10 +138,8 @@ bool StarIdentification::try_pair(std::span<const SearchDot> order, std::size_t 
 bool StarIdentification::take(std::span<const SearchDot> order, double ratio,
                               Identification& result) noexcept {
   const StarMatching::Result fit = matching_.refine(order, evidence_.matches(), result.matches);
-  if (!fit.consistent) {
-    result.matches.clear();
-    return false;
-  }
+  tried_ += kRefinementCost;
+  if (!fit.consistent) return false;
   result.status = IdentificationStatus::kIdentified;
   result.rig_from_j2000 = fit.attitude.body_from_reference;
   result.covariance = fit.attitude.covariance;

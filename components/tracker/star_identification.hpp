@@ -55,7 +55,7 @@ struct Identification {
 /// Holds its tables and scratch space (2 MB): keep it in static storage or on the heap, not on the stack.
 class StarIdentification {
  public:
-  /// Builds the table of pairs (start-up; 5 to 50 ms). @param catalogue must outlive this
+  /// Builds the table of pairs (start-up; 5 to 60 ms). @param catalogue must outlive this
   StarIdentification(const StarCatalogue& catalogue, const SkyCoverage& coverage,
                      const IdentificationParameters& parameters = {}) noexcept;
 

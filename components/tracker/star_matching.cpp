@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kGateSigmas = 3.5;
 constexpr int kRounds = 8;
+constexpr std::size_t kFitDots = 256;  // the rounds are made with the first so many; all come last
 // A star is taken when finding the dot there is this much likelier than by chance.
 constexpr double kLikelier = 3.0;
 // Of the dots that proved the hypothesis, this share must survive the final fit.
@@ -16,8 +17,7 @@ constexpr double kSurvivors = 0.7;
 
 }  // namespace
 
-void StarMatching::match(std::span<const SearchDot> dots, const WahbaSolution& attitude,
-                         StaticVector<StarMatch, limits::kStarPairs>& matches) noexcept {
+void StarMatching::match(std::span<const SearchDot> dots, const WahbaSolution& attitude) noexcept {
   const auto stars = catalogue_.stars();
   const Eigen::Matrix3d j2000_from_rig = attitude.body_from_reference.conjugate().toRotationMatrix();
   const Eigen::Matrix3d& p = attitude.covariance;
@@ -42,60 +42,75 @@ void StarMatching::match(std::span<const SearchDot> dots, const WahbaSolution& a
     if (a.sigmas != b.sigmas) return a.sigmas < b.sigmas;
     return a.search_dot != b.search_dot ? a.search_dot < b.search_dot : a.star < b.star;
   });
-  matches.clear();
+  pairs_.clear();
   for (const Candidate& c : candidates_) {
     if (dot_taken_[c.search_dot] || star_taken_[c.star]) continue;
-    if (!matches.push_back({c.search_dot, c.star, stars[c.star].hr, c.sigmas})) break;
+    pairs_.push_back(c);
     dot_taken_[c.search_dot] = true;
     star_taken_[c.star] = true;
   }
-  for (const StarMatch& m : matches) {
-    dot_taken_[m.dot] = false;
-    star_taken_[m.star] = false;
+  for (const Candidate& c : pairs_) {
+    dot_taken_[c.search_dot] = false;
+    star_taken_[c.star] = false;
   }
+}
+
+WahbaSolution StarMatching::solve(std::span<const SearchDot> dots) const noexcept {
+  const auto stars = catalogue_.stars();
+  Wahba wahba;
+  for (const Candidate& c : pairs_) {
+    wahba.add(dots[c.search_dot].ray, stars[c.star].direction, 1 / dots[c.search_dot].variance);
+  }
+  return wahba.solve();
+}
+
+bool StarMatching::still_there(std::span<const EvidenceMatch> seeds) const noexcept {
+  std::size_t kept = 0;
+  for (const EvidenceMatch& seed : seeds) {
+    kept += std::any_of(
+                pairs_.begin(), pairs_.end(),
+                [&](const Candidate& c) { return c.search_dot == seed.search_dot && c.star == seed.star; })
+                ? 1
+                : 0;
+  }
+  return kept >= 3 && double(kept) >= kSurvivors * double(seeds.size());
 }
 
 StarMatching::Result StarMatching::refine(std::span<const SearchDot> dots,
                                           std::span<const EvidenceMatch> seeds,
                                           StaticVector<StarMatch, limits::kStarPairs>& matches) noexcept {
-  const auto stars = catalogue_.stars();
   Result result;
-  matches.clear();
-  Wahba first;
-  for (const EvidenceMatch& seed : seeds) {
-    first.add(dots[seed.search_dot].ray, stars[seed.star].direction, 1 / dots[seed.search_dot].variance);
-  }
-  result.attitude = first.solve();
-  if (!result.attitude.observable) return result;
+  pairs_.clear();
+  for (const EvidenceMatch& seed : seeds) pairs_.push_back({0, seed.search_dot, seed.star});
+  result.attitude = solve(dots);
 
-  for (int round = 0; round < kRounds; ++round) {
-    match(dots, result.attitude, matches);
-    Wahba all;
-    for (const StarMatch& m : matches)
-      all.add(dots[m.dot].ray, stars[m.star].direction, 1 / dots[m.dot].variance);
-    const WahbaSolution next = all.solve();
-    if (!next.observable) return result;
+  const auto first_dots = dots.first(std::min(dots.size(), kFitDots));
+  for (int round = 0; round < kRounds && result.attitude.observable; ++round) {
+    match(first_dots, result.attitude);
+    const WahbaSolution next = solve(dots);
     const double moved = next.body_from_reference.angularDistance(result.attitude.body_from_reference);
-    const double sigma = std::sqrt(next.covariance.trace());
     result.attitude = next;
-    if (moved < 0.01 * sigma) break;
+    if (moved < 0.01 * std::sqrt(next.covariance.trace())) break;
   }
+  if (!result.attitude.observable || !still_there(seeds)) return result;
 
-  std::size_t kept = 0;
-  for (const EvidenceMatch& seed : seeds) {
-    kept += std::any_of(matches.begin(), matches.end(),
-                        [&](const StarMatch& m) { return m.dot == seed.search_dot && m.star == seed.star; })
-                ? 1
-                : 0;
+  if (dots.size() > first_dots.size()) {
+    match(dots, result.attitude);
+    result.attitude = solve(dots);
+    if (!result.attitude.observable) return result;
   }
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.search_dot < b.search_dot; });
+  const auto stars = catalogue_.stars();
   double squares = 0;
-  for (StarMatch& m : matches) {
-    squares +=
-        (result.attitude.body_from_reference * stars[m.star].direction - dots[m.dot].ray).squaredNorm();
-    m.dot = dots[m.dot].index;  // from here on: the caller's
+  matches.clear();
+  for (const Candidate& c : pairs_) {
+    const SkyStar& star = stars[c.star];
+    squares += (result.attitude.body_from_reference * star.direction - dots[c.search_dot].ray).squaredNorm();
+    matches.push_back({dots[c.search_dot].index, c.star, star.hr, c.sigmas});
   }
-  result.rms = matches.empty() ? 0 : std::sqrt(squares / double(matches.size()));
-  result.consistent = kept >= 3 && double(kept) >= kSurvivors * double(seeds.size());
+  result.rms = std::sqrt(squares / double(pairs_.size()));
+  result.consistent = true;
   return result;
 }
 

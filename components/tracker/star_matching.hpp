@@ -34,22 +34,27 @@ class StarMatching {
   };
 
   /// @param seeds  the matches that the hypothesis was accepted for
+  /// @param matches  the brightest kStarPairs of the dots that are on stars, best first in the search order;
+  ///                 untouched unless consistent
   Result refine(std::span<const SearchDot> dots, std::span<const EvidenceMatch> seeds,
                 StaticVector<StarMatch, limits::kStarPairs>& matches) noexcept;
 
  private:
-  void match(std::span<const SearchDot> dots, const WahbaSolution& attitude,
-             StaticVector<StarMatch, limits::kStarPairs>& matches) noexcept;
+  void match(std::span<const SearchDot> dots, const WahbaSolution& attitude) noexcept;
+  WahbaSolution solve(std::span<const SearchDot> dots) const noexcept;
+  bool still_there(std::span<const EvidenceMatch> seeds) const noexcept;
 
+  static constexpr std::size_t kDots = limits::kDotsPerCamera * limits::kCameras;
   struct Candidate {
     float sigmas;
     std::uint16_t search_dot;
     std::uint16_t star;
   };
   const StarCatalogue& catalogue_;
-  StaticVector<Candidate, 2 * limits::kDotsPerCamera * limits::kCameras> candidates_;
+  StaticVector<Candidate, 2 * kDots> candidates_;
+  StaticVector<Candidate, kDots> pairs_;  // one to one
   std::array<bool, StarCatalogue::kCapacity> star_taken_{};
-  std::array<bool, limits::kDotsPerCamera * limits::kCameras> dot_taken_{};
+  std::array<bool, kDots> dot_taken_{};
 };
 
 }  // namespace omma

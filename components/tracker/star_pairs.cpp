@@ -9,6 +9,7 @@ namespace omma {
 namespace {
 
 constexpr double kSphere = 4 * std::numbers::pi;
+constexpr std::size_t kPool = 4;
 constexpr double kStarsPerField = 50;  // more help only where half of the dots and more are false
 
 /// Fraction of the sphere within the angle `radius`.
@@ -23,21 +24,24 @@ double stars_that_fit(double angle) {
 
 }  // namespace
 
-void StarPairs::choose_stars(const StarCatalogue& catalogue, std::size_t wanted, double radius,
+bool StarPairs::choose_stars(const StarCatalogue& catalogue, std::size_t wanted, double radius,
                              std::size_t most_within) noexcept {
-  const auto stars = catalogue.stars();
+  // Stars much fainter than those wanted help no more, even in a poor field.
+  const auto stars = catalogue.stars().first(std::min(catalogue.stars().size(), kPool * wanted));
   const double cosine = std::cos(radius);
   std::array<bool, StarCatalogue::kCapacity> taken{};
   chosen_.clear();
-  for (std::size_t i = 0; i < stars.size() && chosen_.size() < wanted; ++i) {
+  for (std::size_t i = 0; i < stars.size(); ++i) {
     std::size_t within = 0;
     catalogue.near(stars[i].direction, radius, [&](std::size_t k) {
       if (taken[k] && stars[k].direction.dot(stars[i].direction) > cosine) ++within;
     });
     if (within >= most_within) continue;
+    if (chosen_.size() == wanted) return false;
     taken[i] = true;
     chosen_.push_back(static_cast<std::uint16_t>(i));
   }
+  return true;
 }
 
 void StarPairs::build(const StarCatalogue& catalogue, const SkyCoverage& coverage) noexcept {
@@ -56,8 +60,13 @@ void StarPairs::build(const StarCatalogue& catalogue, const SkyCoverage& coverag
   }
   const double wanted = std::min(kStarsPerField / seen, stars_that_fit(largest_angle_));
   const double radius = std::acos(1 - 2 * std::min(seen, 0.4));  // a cap as large as the field
-  choose_stars(catalogue, static_cast<std::size_t>(wanted), radius,
-               std::max<std::size_t>(6, static_cast<std::size_t>(1.3 * wanted * std::min(seen, 0.4))));
+  // The most stars in any field with which the stars of the whole sky are no more than wanted.
+  std::size_t fits = 1;
+  for (std::size_t above = 2 * static_cast<std::size_t>(kStarsPerField); above - fits > 1;) {
+    const std::size_t middle = (fits + above) / 2;
+    (choose_stars(catalogue, static_cast<std::size_t>(wanted), radius, middle) ? fits : above) = middle;
+  }
+  choose_stars(catalogue, static_cast<std::size_t>(wanted), radius, fits);
 
   const auto stars = catalogue.stars();
   const double cosine = std::cos(largest_angle_);

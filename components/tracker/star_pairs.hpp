@@ -34,7 +34,9 @@ class StarPairs {
   double largest_angle() const { return largest_angle_; }  ///< of a pair in the table [rad]
 
  private:
-  void choose_stars(const StarCatalogue& catalogue, std::size_t wanted, double radius,
+  /// Brightest first, at most `most_within` in a cap of `radius` [rad]; false where more than `wanted` would
+  /// be chosen.
+  bool choose_stars(const StarCatalogue& catalogue, std::size_t wanted, double radius,
                     std::size_t most_within) noexcept;
 
   StaticVector<StarPair, kCapacity> pairs_;

@@ -114,8 +114,12 @@ int bench_identify(int argc, char** argv) {
        0.25},
       {"3 x 122 deg, 80 % of the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.8}, 0.25},
   };
-  for (const Case& c : cases) run(c, trials);
-  run_nothing_there(10 * trials);
+  const int row = option(argc, argv, "--row", 0);
+  int number = 0;
+  for (const Case& c : cases) {
+    if (++number == row || row == 0) run(c, trials);
+  }
+  if (row == 0 || row > number) run_nothing_there(10 * trials);
   return 0;
 }
 

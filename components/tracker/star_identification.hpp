@@ -47,8 +47,9 @@ struct Identification {
   Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< small rotation, rig frame [rad²]
   StaticVector<StarMatch, limits::kStarPairs> matches;   ///< empty unless identified
-  double rms = 0;                                        ///< angle between dots and their stars [rad]
-  std::uint32_t hypotheses = 0;                          ///< tried, all passes
+  double widening = 1;           ///< factor every dot's sigma needed for the lens to be believed
+  double rms = 0;                ///< angle between dots and their stars [rad]
+  std::uint32_t hypotheses = 0;  ///< tried, all passes
   double log10_false_match = 0;  ///< of the proven bound on the probability that this answer is false
 };
 

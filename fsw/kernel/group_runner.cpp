@@ -24,6 +24,8 @@ GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const
       base_period_(table.base_period.count()),
       clock_(clock),
       observer_(observer) {
+  for (std::uint16_t i = 0; i < index; ++i)
+    first_component_ = static_cast<std::uint16_t>(first_component_ + table.groups[i].components.size());
   for (const ScheduledComponent& scheduled : group_.components) {
     steps_.push_back(std::make_unique<Step>());
     steps_.back()->component = &scheduled.component;
@@ -82,7 +84,8 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
     const StepTime time{wall_before, elapsed(wall_before, wall), cpu - cpu_before};
     step.timing.wall.add(time.wall_ns);
     step.timing.cpu.add(time.cpu_ns);
-    judge({index_, static_cast<std::uint16_t>(i)}, tick, time, step);
+    const auto position = static_cast<std::uint16_t>(i);
+    judge({index_, position, static_cast<std::uint16_t>(first_component_ + i)}, tick, time, step);
     wall_before = wall;
     cpu_before = cpu;
   }

@@ -47,6 +47,8 @@ class GroupRunner {
   void serve_tick(std::uint64_t tick_number) noexcept;
 
   const RateGroup& group() const { return group_; }
+  /// Beats that are due on base ticks before `tick`.
+  std::uint64_t beats_before(std::uint64_t tick) const { return grid_.beats_before(tick); }
   const GroupTiming& timing() const { return timing_; }
   const ComponentTiming& component_timing(std::size_t component) const { return steps_[component]->timing; }
 
@@ -65,6 +67,7 @@ class GroupRunner {
 
   RateGroup group_;
   std::uint16_t index_;
+  std::uint16_t first_component_ = 0;  // number in the whole table
   TimeNs base_period_;
   Clock& clock_;
   ScheduleObserver& observer_;

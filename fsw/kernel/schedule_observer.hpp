@@ -9,10 +9,11 @@
 
 namespace omma {
 
-/// Where in the table: group index, component index within the group.
+/// Where in the table.
 struct SchedulePlace {
   std::uint16_t group = 0;
-  std::uint16_t component = 0;
+  std::uint16_t position = 0;   ///< of the component in its group
+  std::uint16_t component = 0;  ///< number of the component in the whole table, groups one after the other
 };
 
 struct StepTime {

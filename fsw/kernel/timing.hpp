@@ -56,6 +56,7 @@ class DurationStatistics {
     std::atomic<std::uint32_t>& bucket = histogram_[LogHistogram::bucket(duration)];
     bucket.store(bucket.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
+  std::uint64_t count() const noexcept { return load(count_); }
   /// Each field is right; two fields may be one sample apart.
   DurationSnapshot snapshot() const noexcept;
 

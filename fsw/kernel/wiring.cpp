@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "config/limits.hpp"
 #include "fsw/kernel/crossing.hpp"
 
 namespace omma {
@@ -149,9 +150,17 @@ std::string Wiring::input_name(std::size_t index) const {
 Wiring trace_wiring(const RateGroupTable& table) {
   Wiring wiring;
   if (table.base_period.count() <= 0) wiring.faults.emplace_back("the base period is not positive.");
+  if (table.groups.size() > limits::kRateGroups)
+    wiring.faults.push_back("the table has " + std::to_string(table.groups.size()) +
+                            " rate groups; limits::kRateGroups is " + std::to_string(limits::kRateGroups) +
+                            ".");
   if (table.groups.empty()) wiring.faults.emplace_back("the table has no rate groups.");
   for (const RateGroup& group : table.groups) check_group(group, table, wiring.faults);
   collect_components(table, wiring);
+  if (wiring.components.size() > limits::kComponents)
+    wiring.faults.push_back("the table has " + std::to_string(wiring.components.size()) +
+                            " components; limits::kComponents is " + std::to_string(limits::kComponents) +
+                            ".");
   for (std::size_t i = 0; i < wiring.outputs.size(); ++i)
     if (!wiring.outputs[i].port->bound())
       wiring.faults.push_back("output " + wiring.output_name(i) + " is not bound to a queue.");

@@ -137,6 +137,7 @@ TEST(Scheduler, ReportsAStepOverItsBudgetAndNoOther) {
       clock, witness);
   scheduler.run(10);
   ASSERT_EQ(witness.breaches.size(), 1U);
+  EXPECT_EQ(witness.breaches[0].place.position, 1);
   EXPECT_EQ(witness.breaches[0].place.component, 1);
   EXPECT_EQ(witness.breaches[0].tick.number, 5U);
   EXPECT_EQ(witness.breaches[0].wall_ns, 300'001);

@@ -1,0 +1,71 @@
+// The dictionary as JSON.
+#include "fsw/services/dictionary.hpp"
+
+#include "fsw/kernel/crossing.hpp"
+#include "fsw/kernel/wiring.hpp"
+#include "fsw/services/event_text.hpp"
+#include "fsw/services/json_text.hpp"
+
+namespace omma {
+namespace {
+
+void write_event(JsonText& json, const EventDescriptor& event) {
+  json.open_object().key("id").number(event.id).key("name").string(event.name);
+  json.key("severity").string(severity_name(event.severity)).key("text").string(event.text);
+  json.key("values").open_array();
+  for (std::size_t i = 0; i < event.value_count(); ++i)
+    json.open_object()
+        .key("name")
+        .string(event.values[i].name)
+        .key("unit")
+        .string(event.values[i].unit)
+        .close_object();
+  json.close_array().key("burst").number(event.burst);
+  json.key("interval_s").number(static_cast<double>(event.interval_ns) * 1e-9).close_object();
+}
+
+void write_channel(JsonText& json, const ChannelDescriptor& channel) {
+  json.open_object().key("id").number(channel.id).key("name").string(channel.name);
+  json.key("unit").string(channel.unit).key("text").string(channel.text).close_object();
+}
+
+void write_group(JsonText& json, const RateGroup& group, std::chrono::nanoseconds base_period) {
+  json.open_object().key("name").string(group.name);
+  json.key("period_s").number(static_cast<double>(base_period.count()) * group.divisor * 1e-9);
+  json.key("offset_s").number(static_cast<double>(base_period.count()) * group.offset * 1e-9);
+  json.key("priority").number(group.priority).key("components").open_array();
+  for (const ScheduledComponent& scheduled : group.components) {
+    json.open_object().key("name").string(scheduled.component.name());
+    json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) * 1e-9).close_object();
+  }
+  json.close_array().close_object();
+}
+
+void write_connection(JsonText& json, const Wiring& wiring, const Connection& connection) {
+  json.open_object().key("from").string(wiring.output_name(connection.output));
+  json.key("to").string(wiring.input_name(connection.input));
+  json.key("by").string(connection.crossing != nullptr ? connection.crossing->kind() : "reference");
+  json.key("previous_tick")
+      .boolean(wiring.inputs[connection.input].port->reads_previous_tick())
+      .close_object();
+}
+
+}  // namespace
+
+std::string dictionary_json(const Dictionary& dictionary, const RateGroupTable& table) {
+  JsonText json;
+  json.open_object().key("program").string(dictionary.program).key("version").string(dictionary.version);
+  json.key("events").open_array();
+  for (const EventDescriptor& event : dictionary.events) write_event(json, event);
+  json.close_array().key("channels").open_array();
+  for (const ChannelDescriptor& channel : dictionary.channels) write_channel(json, channel);
+  json.close_array().key("rate_groups").open_array();
+  for (const RateGroup& group : table.groups) write_group(json, group, table.base_period);
+  json.close_array().key("connections").open_array();
+  const Wiring wiring = trace_wiring(table);
+  for (const Connection& connection : wiring.connections) write_connection(json, wiring, connection);
+  json.close_array().close_object();
+  return json.text();
+}
+
+}  // namespace omma

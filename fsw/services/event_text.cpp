@@ -1,0 +1,54 @@
+// Filling the numbers into an event's sentence.
+#include "fsw/services/event_text.hpp"
+
+#include <cstdio>
+
+namespace omma {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+}  // namespace
+
+std::string_view severity_name(EventSeverity severity) {
+  switch (severity) {
+    case EventSeverity::kDiagnostic:
+      return "diagnostic";
+    case EventSeverity::kActivity:
+      return "activity";
+    case EventSeverity::kWarning:
+      return "warning";
+    case EventSeverity::kFailure:
+      return "failure";
+  }
+  return "unknown";
+}
+
+std::string event_text(const EventDescriptor& descriptor, const EventRecord& record) {
+  std::string sentence;
+  const std::string_view text = descriptor.text;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool placeholder = text[i] == '{' && i + 2 < text.size() && text[i + 2] == '}';
+    if (!placeholder) {
+      sentence += text[i];
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(text[i + 1] - '0');
+    if (index < record.value_count && index < record.values.size()) {
+      sentence += number(record.values[index]);
+      const std::string_view unit = descriptor.values[index].unit;
+      if (!unit.empty()) sentence.append(" ").append(unit);
+    } else {
+      sentence += '?';
+    }
+    i += 2;
+  }
+  if (record.held_back > 0) sentence += " (and " + std::to_string(record.held_back) + " before it)";
+  return sentence;
+}
+
+}  // namespace omma

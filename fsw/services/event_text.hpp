@@ -1,0 +1,16 @@
+// The sentence of an event, made where it is read (on the ground) from the declaration the flight code uses.
+#pragma once
+
+#include <string>
+
+#include "fsw/services/event.hpp"
+
+namespace omma {
+
+std::string_view severity_name(EventSeverity severity);
+
+/// "rate group 2 missed 3 beats"; a number the record lacks is written as "?". When the throttle held events
+/// back, " (and 12 before it)" follows.
+std::string event_text(const EventDescriptor& descriptor, const EventRecord& record);
+
+}  // namespace omma

@@ -1,0 +1,48 @@
+// Turns what the scheduler observes into events: missed beats and steps over their budgets.
+#pragma once
+
+#include <array>
+
+#include "fsw/kernel/schedule_observer.hpp"
+#include "fsw/services/events.hpp"
+
+namespace omma {
+
+inline constexpr EventDescriptor kBeatsMissed{
+    .id = 1,
+    .severity = EventSeverity::kWarning,
+    .name = "beats_missed",
+    .text = "rate group {0} missed {1} beats, the first due at tick {2}",
+    .values = {{{"group"}, {"count"}, {"first_tick"}}}};
+
+inline constexpr EventDescriptor kStepOverBudget{
+    .id = 2,
+    .severity = EventSeverity::kWarning,
+    .name = "step_over_budget",
+    .text = "step of component {0} took {1}, of which {2} on the processor; its budget is {3}",
+    .values = {{{"component"}, {"wall", "us"}, {"cpu", "us"}, {"budget", "us"}}}};
+
+inline constexpr std::array kScheduleEvents{kBeatsMissed, kStepOverBudget};
+static_assert(are_unique(kScheduleEvents) && are_well_formed(kScheduleEvents));
+
+/// To be given to the scheduler.
+class ScheduleEvents final : public ScheduleObserver {
+ public:
+  explicit ScheduleEvents(Events& events) : events_(events) {}
+
+  void over_budget(SchedulePlace place, const Tick& tick, const StepTime& time,
+                   TimeNs budget_ns) noexcept override {
+    events_.raise<kStepOverBudget>(tick, place.component, microseconds(time.wall_ns),
+                                   microseconds(time.cpu_ns), microseconds(budget_ns));
+  }
+  void missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept override {
+    events_.raise<kBeatsMissed>(first, group, count, first.number);
+  }
+
+ private:
+  static double microseconds(TimeNs duration) { return static_cast<double>(duration) * 1e-3; }
+
+  Events& events_;
+};
+
+}  // namespace omma

@@ -1,6 +1,7 @@
 #include "components/geometry/lens_file.hpp"
 
-#include <regex>
+#include <algorithm>
+#include <stdexcept>
 
 #include "fsw/kernel/input_error.hpp"
 #include "fsw/services/text_input.hpp"
@@ -20,13 +21,14 @@ LensPath split(const std::string& path) {
   return {path.substr(0, mark), path.substr(mark + 1)};
 }
 
-bool any_line_starts_with(const std::string& text, const char* pattern) {
-  const std::regex expression(pattern);
-  for (const std::string_view line : lines_of(text)) {
-    const std::string_view head = line.substr(0, 200);
-    if (std::regex_search(head.begin(), head.end(), expression, std::regex_constants::match_continuous)) {
-      return true;
-    }
+// A line that begins `name <sign>`, with blanks where the format allows them.
+bool assigns(const std::string& text, std::string_view name, char sign) {
+  for (std::string_view line : lines_of(text)) {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (!line.starts_with(name)) continue;
+    line.remove_prefix(name.size());
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (line.starts_with(sign)) return true;
   }
   return false;
 }
@@ -37,14 +39,14 @@ Lens read_lens_file(const std::string& path) {
   const auto [file, camera] = split(path);
   const std::string text = read_text(file);
   const std::string ending = std::filesystem::path(file).extension().string();
-  const bool kalibr = ending == ".yaml" || ending == ".yml" ||
-                      (ending != ".m" && any_line_starts_with(text, "\\s*camera_model\\s*:"));
+  const bool kalibr =
+      ending == ".yaml" || ending == ".yml" || (ending != ".m" && assigns(text, "camera_model", ':'));
   if (!kalibr && !camera.empty()) {
     throw InputError(path, 0, "file", "a Kalibr camera chain before '#'", "another kind of file");
   }
   try {
     if (kalibr) return lens_from_kalibr(text, file, camera);
-    if (ending == ".m" || any_line_starts_with(text, "\\s*(fc|kc|cc)\\s*="))
+    if (ending == ".m" || assigns(text, "fc", '=') || assigns(text, "cc", '='))
       return lens_from_bouguet(text, file);
     return lens_from_ocamcalib(text, file);
   } catch (const std::invalid_argument& error) {  // numbers that are right one by one but make no lens

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "components/catalogue/apparent_place.hpp"
 #include "components/catalogue/star.hpp"
 #include "components/geometry/lens_file.hpp"
 #include "fsw/kernel/input_error.hpp"
@@ -109,7 +110,8 @@ Eigen::Matrix3d matrix_of(const nlohmann::json& rows) {
 TEST(RealLens, StellariumShotsHaveTheirTruthFocalLength) {
   const std::string truth = kData + "sky/stellarium/rig/truth.json";
   OMMA_NEEDS(truth);
-  for (const auto& shot : json_of(truth)["shots"]) {
+  const auto shots = json_of(truth)["shots"];
+  for (const auto& shot : shots) {
     const double f = shot["f_px"];
     char name[64];
     std::snprintf(name, sizeof name, "fisheye_%.1fpx_1024x768.txt", f);
@@ -132,54 +134,6 @@ TEST(RealLens, StellariumShotsHaveTheirTruthFocalLength) {
   }
 }
 
-// J2000 direction at an epoch: proper motion along a straight line; aberration left to the fitted attitude's
-// neighbourhood (20.5", a third of a pixel here) is applied by the Earth's velocity below.
-Eigen::Vector3d direction_of(const CatalogueStar& star, double years) {
-  const double ra = star.right_ascension;
-  const double dec = star.declination;
-  const Eigen::Vector3d p(std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec));
-  const Eigen::Vector3d east(-std::sin(ra), std::cos(ra), 0);
-  const Eigen::Vector3d north(-std::sin(dec) * std::cos(ra), -std::sin(dec) * std::sin(ra), std::cos(dec));
-  return (p + years * (double{star.pm_ra_cosdec} * east + double{star.pm_dec} * north)).normalized();
-}
-
-// Meeus, Astronomical Algorithms, chapters 25 and 47 (refraction: Saemundsson, chapter 16): enough for 1".
-struct Ground {
-  Eigen::Vector3d zenith;          // J2000, precession to date included to first order
-  Eigen::Vector3d earth_velocity;  // over the speed of light
-};
-
-Ground ground_at(double jd, double latitude, double longitude) {
-  const double days = jd - 2451545.0;
-  const double century = days / 36525;
-  const double gmst = (280.46061837 + 360.98564736629 * days) * kDegree;
-  const double lst = gmst + longitude;
-  const Eigen::Vector3d of_date(std::cos(latitude) * std::cos(lst), std::cos(latitude) * std::sin(lst),
-                                std::sin(latitude));
-  // Precession angles (IAU 1976), first order in time.
-  const double zeta = 2306.2181 * century / 3600 * kDegree;
-  const double tilt = 2004.3109 * century / 3600 * kDegree;
-  Eigen::Matrix3d precession;  // of date from J2000
-  precession << 1, -2 * zeta, -tilt, 2 * zeta, 1, 0, tilt, 0, 1;
-  const double sun =
-      (280.46 + 0.9856474 * days + 1.915 * std::sin((357.528 + 0.9856003 * days) * kDegree)) * kDegree;
-  const double obliquity = 23.439 * kDegree;
-  const double speed = 20.49552 / 3600 * kDegree;
-  const Eigen::Vector3d velocity =
-      speed * Eigen::Vector3d(std::sin(sun), -std::cos(sun) * std::cos(obliquity),
-                              -std::cos(sun) * std::sin(obliquity));
-  return {(precession.transpose() * of_date).normalized(), velocity};
-}
-
-Eigen::Vector3d apparent(const Eigen::Vector3d& star, const Ground& ground) {
-  const Eigen::Vector3d moved = (star + ground.earth_velocity).normalized();
-  const double altitude = std::asin(std::min(1.0, moved.dot(ground.zenith)));
-  const double degrees = altitude / kDegree;
-  const double lift = 1.02 / 60 * kDegree / std::tan((degrees + 10.3 / (degrees + 5.11)) * kDegree);
-  const Eigen::Vector3d up = (ground.zenith - moved * moved.dot(ground.zenith)).normalized();
-  return (moved + lift * up).normalized();
-}
-
 std::map<int, const CatalogueStar*> catalogue_by_number() {
   std::map<int, const CatalogueStar*> stars;
   for (const CatalogueStar& star : bright_star_catalogue()) stars[star.hr] = &star;
@@ -193,9 +147,11 @@ TEST(RealLens, LongyearbyenStarsFallOnTheirPixels) {
   const Lens lens = read_lens_file(base + "calib_results.txt");
   const Eigen::Matrix3d camera_from_j2000 = matrix_of(truth["C_cam_from_J2000"]);
   ASSERT_NEAR(camera_from_j2000.determinant(), 1, 1e-9);
-  const double jd = truth["utc_jd"];
-  const Ground ground =
-      ground_at(jd, truth["lat"].get<double>() * kDegree, truth["lon"].get<double>() * kDegree);
+  Observer observer;
+  observer.julian_date_utc = truth["utc_jd"].get<double>();
+  observer.site =
+      GroundSite{truth["lat"].get<double>() * kDegree, truth["lon"].get<double>() * kDegree, 0, {}, {}};
+  const ApparentPlace place(observer);
   const auto catalogue = catalogue_by_number();
   double sum = 0;
   double backwards = 0;
@@ -203,8 +159,9 @@ TEST(RealLens, LongyearbyenStarsFallOnTheirPixels) {
   for (const auto& entry : truth["stars"]) {
     const auto star = catalogue.find(entry["HR"].get<int>());
     ASSERT_NE(star, catalogue.end());
-    const Eigen::Vector3d direction =
-        camera_from_j2000 * apparent(direction_of(*star->second, (jd - 2451545.0) / 365.25), ground);
+    Eigen::Vector3d direction;
+    ASSERT_TRUE(place.direction(*star->second, direction));
+    direction = camera_from_j2000 * direction;
     const Eigen::Vector2d listed(entry["x"].get<double>(), entry["y"].get<double>());
     Eigen::Vector2d pixel;
     ASSERT_TRUE(lens.project(direction, pixel)) << entry["HR"];
@@ -228,14 +185,19 @@ TEST(RealLens, IndiStarsFallOnTheirPixels) {
   const auto truth = json_of(base + "truth.json");
   const Lens lens = read_lens_file(base + "calib_results.txt");
   const Eigen::Matrix3d camera_from_j2000 = matrix_of(truth["C_cam_from_J2000"]);
+  Observer observer;  // the site is unknown: the fitted lens and attitude contain the refraction
+  observer.julian_date_utc = truth["utc_jd_assumed_EDT"].get<double>();
+  const ApparentPlace place(observer);
   const auto catalogue = catalogue_by_number();
   double sum = 0;
   int count = 0;
   for (const auto& entry : truth["stars"]) {
     const auto star = catalogue.find(entry["HR"].get<int>());
     ASSERT_NE(star, catalogue.end());
+    Eigen::Vector3d direction;
+    ASSERT_TRUE(place.direction(*star->second, direction));
     Eigen::Vector2d pixel;
-    ASSERT_TRUE(lens.project(camera_from_j2000 * direction_of(*star->second, 21.3), pixel)) << entry["HR"];
+    ASSERT_TRUE(lens.project(camera_from_j2000 * direction, pixel)) << entry["HR"];
     sum += (pixel - Eigen::Vector2d(entry["x"].get<double>(), entry["y"].get<double>())).squaredNorm();
     ++count;
   }

@@ -16,6 +16,7 @@ struct Bench {
 constexpr Bench kBenches[] = {
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
+    {"lens", omma::bench_lens, "pixel to bearing and back, each lens model: time per call"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
     {"target_identification", omma::bench_target_identification,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <limits>
 #include <span>
 
 #include "components/estimation/normal_equations.hpp"
@@ -19,6 +20,7 @@ struct Descent {
   double cost = 0;  ///< sum of squares there
   int iterations = 0;
   bool converged = false;
+  bool gave_up = false;   ///< its cost would stay above the limit given
   bool singular = false;  ///< the sights do not fix the unknowns
 };
 
@@ -57,10 +59,17 @@ bool damped_step(const NormalEquations<kUnknowns>& equations, double damping,
   return step.allFinite();
 }
 
+/// Iterations after which a descent with a limit on its cost may give up.
+inline constexpr int kIterationsBeforeGivingUp = 4;
+
 /// @param weights  as in normal_equations
+/// @param largest_cost  a descent whose cost, even at the minimum its quadratic model promises, would stay
+/// above
+///                      this gives up early
 template <int kUnknowns>
 Descent<kUnknowns> descend(std::span<const Sight> sights, std::span<const double> weights,
-                           const Pose& initial, int max_iterations) noexcept {
+                           const Pose& initial, int max_iterations,
+                           double largest_cost = std::numeric_limits<double>::infinity()) noexcept {
   Descent<kUnknowns> descent;
   descent.pose = initial;
   NormalEquations<kUnknowns> here = normal_equations<kUnknowns>(sights, weights, initial);
@@ -81,6 +90,8 @@ Descent<kUnknowns> descend(std::span<const Sight> sights, std::span<const double
       descent.converged = true;
       break;
     }
+    descent.gave_up = descent.iterations > kIterationsBeforeGivingUp && here.cost - promised > largest_cost;
+    if (descent.gave_up) break;
     const NormalEquations<kUnknowns> there = normal_equations<kUnknowns>(sights, weights, next);
     if (there.cost <= here.cost) {
       descent.pose = next;

@@ -25,13 +25,17 @@ class Fit {
 
   /// Descends from `initial`, culls, descends again until the set of sights no longer changes.
   void solve(const Pose& initial) noexcept {
-    kept_ = sights_.size();
-    descent_ = run({}, initial);
-    if (!std::isfinite(descent_.cost)) leave_out_broken_sights(initial);
+    const bool gated = options_.initial_gate > 0 && descend_inside_initial_gate(initial);
+    if (!gated) {
+      kept_ = sights_.size();
+      descent_ = run({}, initial);
+      if (!std::isfinite(descent_.cost)) leave_out_broken_sights(initial);
+    }
     measure_residuals();
     if (options_.cull == CullRule::kNone || descent_.singular) return;
-    if (options_.cull == CullRule::kChiSquare && all_inside_gate()) return;
-    if (options_.cull == CullRule::kChiSquare) descend_past_outliers();
+    const bool chi_square = options_.cull == CullRule::kChiSquare;
+    if (chi_square && kept_ == sights_.size() && all_inside_gate()) return;
+    if (chi_square && !gated) descend_past_outliers();
     cull_and_descend();
   }
 
@@ -85,15 +89,33 @@ class Fit {
       if (keeps(i)) sum += squared_residual<kUnknowns>(sights_[i], rotation, pose.translation, squared_angle);
     return sum;
   }
-  Descent<kUnknowns> descend_kept(const Pose& initial) noexcept {
-    return run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial);
+  Descent<kUnknowns> descend_kept(const Pose& initial, double largest_cost) noexcept {
+    return run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial, largest_cost);
   }
 
  private:
-  Descent<kUnknowns> run(std::span<const double> given, const Pose& initial) noexcept {
-    const Descent<kUnknowns> descent = descend<kUnknowns>(sights_, given, initial, options_.max_iterations);
+  Descent<kUnknowns> run(std::span<const double> given, const Pose& initial,
+                         double largest_cost = std::numeric_limits<double>::infinity()) noexcept {
+    const Descent<kUnknowns> descent =
+        descend<kUnknowns>(sights_, given, initial, options_.max_iterations, largest_cost);
     iterations_ += descent.iterations;
     return descent;
+  }
+
+  /// False where the gate leaves too few sights to stand on.
+  bool descend_inside_initial_gate(const Pose& initial) noexcept {
+    descent_.pose = initial;
+    measure_residuals();
+    const double limit = options_.initial_gate * options_.initial_gate;
+    kept_ = 0;
+    for (std::size_t i = 0; i < sights_.size(); ++i) {
+      const bool inside = squared_residuals_[i] <= limit;
+      weights_[i] = inside ? 1.0 : 0.0;
+      kept_ += inside ? 1 : 0;
+    }
+    if (kept_ <= kFewestPairs<kUnknowns>) return false;
+    descent_ = run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial);
+    return true;
   }
 
   /// A sight with a number that is none spoils every sum; found only when a sum is spoilt, so that the common
@@ -215,23 +237,27 @@ double prior_cost(const Pose& pose, const Pose& initial, const SolveOptions& opt
   return angle * angle;
 }
 
+/// A minimum worse than the first by so many ambiguity margins is not followed to its end.
+constexpr double kContenderMargin = 10;
+
 /// Solves in the mirror image of a flat card's pose as well; keeps the likelier minimum in `fit`.
 void follow_second_minimum(const CardShape& shape, const Pose& initial, const SolveOptions& options,
                            Fit<kPoseUnknowns>& fit, PoseSolution& solution) noexcept {
   const Pose first = fit.descent().pose;
-  const Descent<kPoseUnknowns> other = fit.descend_kept(mirrored_pose(shape, first));
-  if (other.singular) return;
+  const double first_chi2 = fit.chi2();
+  const double first_score = first_chi2 + prior_cost(first, initial, options);
+  const Descent<kPoseUnknowns> other = fit.descend_kept(
+      mirrored_pose(shape, first), first_score + kContenderMargin * options.ambiguity_margin);
+  if (other.singular || other.gave_up) return;
   Vector6d apart;
   apart << rotation_log(other.pose.rotation * first.rotation.conjugate()),
       other.pose.translation - first.translation;
   if (apart.dot(fit.descent().information * apart) < 1e-3) return;  // both descents met: one minimum
-  const double first_chi2 = fit.chi2();
   const double other_chi2 = fit.chi2_at(other.pose);
   if (!std::isfinite(other_chi2)) return;
 
   solution.has_alternative = true;
-  const double gain = first_chi2 + prior_cost(first, initial, options) - other_chi2 -
-                      prior_cost(other.pose, initial, options);
+  const double gain = first_score - other_chi2 - prior_cost(other.pose, initial, options);
   solution.ambiguous = std::abs(gain) < options.ambiguity_margin;
   solution.alternative = other.pose;
   solution.alternative_chi2 = other_chi2;

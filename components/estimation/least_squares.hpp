@@ -25,13 +25,17 @@ enum class CullRule : std::uint8_t {
 /// What to do with the second minimum of a flat card.
 enum class SecondMinimum : std::uint8_t {
   kIgnore,  ///< the minimum next to the initial pose is the answer
-  kFollow,  ///< both are solved; the likelier is the answer, the other is reported with it
+  kFollow,  ///< both are solved; the likelier is the answer, the other is reported with it if it is a
+            ///< contender
 };
 
 struct SolveOptions {
   int max_iterations = 30;  ///< of one descent; of the whole solve: most_iterations()
   CullRule cull = CullRule::kChiSquare;
-  double gate = 4.0;                     ///< kChiSquare: largest whitened residual kept [σ]
+  double gate = 4.0;  ///< kChiSquare: largest whitened residual kept [σ]
+  /// Larger than 0: the initial pose is good enough to leave sights beyond so many σ out of the first
+  /// descent.
+  double initial_gate = 0;
   double kept_fraction = 0.9;            ///< kSmallestFraction
   double mean_plus_sigma = 2.0;          ///< kMeanPlusSigma: k
   double inconsistent_scale = 5.0;       ///< residuals this many times their σ make the answer inconsistent

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/estimation/least_squares.hpp"
+#include "components/estimation/pose_search.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/rig_problem.hpp"
@@ -96,7 +97,36 @@ void warm(int trials) {
   }
 }
 
-void outliers(int trials) {
+template <class Adjust>
+void cold(const char* title, int trials, std::initializer_list<int> targets, Adjust&& adjust) {
+  print_header(title);
+  for (const int n : targets) {
+    RigProblemOptions options;
+    options.targets = n;
+    adjust(options);
+    char name[64];
+    std::snprintf(name, sizeof name, "N = %d", n);
+    run(name, options, trials, [](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return find_pose(problem.sights, {}, used);
+    });
+  }
+}
+
+void basin(int trials) {
+  print_header("prior far off, 0.3 m, N = 20");
+  for (const double degrees : {20.0, 40.0, 60.0, 90.0}) {
+    RigProblemOptions options;
+    options.prior_rotation_deg = degrees;
+    options.prior_position = 0.3;
+    char name[64];
+    std::snprintf(name, sizeof name, "prior off by %.0f deg", degrees);
+    run(name, options, trials, [](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return solve_pose_or_find(problem.sights, problem.prior, {}, used);
+    });
+  }
+}
+
+void warm_outliers(int trials) {
   print_header("20 % mis-paired, warm");
   for (const int n : {20, 60}) {
     RigProblemOptions options;
@@ -104,8 +134,8 @@ void outliers(int trials) {
     options.outlier_fraction = 0.2;
     char name[64];
     std::snprintf(name, sizeof name, "N = %d", n);
-    run(name, options, trials, [&](const RigProblem& problem, std::span<std::uint8_t> used) {
-      return solve_pose(problem.sights, problem.prior, {}, used);
+    run(name, options, trials, [](const RigProblem& problem, std::span<std::uint8_t> used) {
+      return solve_pose_or_find(problem.sights, problem.prior, {}, used);
     });
   }
 }
@@ -115,7 +145,14 @@ void outliers(int trials) {
 int bench_pose(int argc, char** argv) {
   const int trials = option(argc, argv, "--trials", 400);
   warm(trials);
-  outliers(trials);
+  cold("cold", trials, {8, 20, 60}, [](RigProblemOptions&) {});
+  cold("cold, one camera", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.cameras = 1; });
+  cold("cold, relief 5 cm", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.depth = 0.05; });
+  cold("cold, three cards around", trials, {20}, [](RigProblemOptions& o) { o.surround = true; });
+  cold("cold, 95 deg off every axis", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.off_axis_deg = 95; });
+  cold("cold, 20 % mis-paired", trials, {20, 60}, [](RigProblemOptions& o) { o.outlier_fraction = 0.2; });
+  basin(trials);
+  warm_outliers(trials);
   return 0;
 }
 

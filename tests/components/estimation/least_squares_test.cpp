@@ -158,6 +158,7 @@ TEST(RigPose, ReachesTheCramerRaoBound) {
 
 TEST(RigPose, AFlatCardsOtherMinimumIsFoundFromEitherSide) {
   RigProblemOptions options;
+  options.sigma_deg = 0.1;
   int with_alternative = 0, swapped = 0, same_answer = 0, from_far_side = 0;
   for (int trial = 0; trial < 200; ++trial) {
     const RigProblem problem = make_rig_problem(options, 1000 + static_cast<std::uint64_t>(trial));

@@ -1,0 +1,128 @@
+#include "fsw/app/mission.hpp"
+
+#include "components/catalogue/apparent_place.hpp"
+#include "components/catalogue/target_file.hpp"
+#include "components/geometry/rig_file.hpp"
+#include "fsw/services/toml_table.hpp"
+
+namespace omma {
+namespace {
+
+ExtractorParameters read_extractor(const TomlTable& table) {
+  ExtractorParameters parameters;
+  parameters.threshold = static_cast<float>(table.number("threshold", {1, 100}, parameters.threshold));
+  parameters.gain = static_cast<float>(table.number("gain_e_per_level", {0, 1e6}, parameters.gain));
+  parameters.black_level = static_cast<float>(table.number("black_level", {0, 65535}, parameters.black_level));
+  const std::string polarity = table.text("polarity", "bright");
+  if (polarity == "bright") {
+    parameters.polarity = DotPolarity::kBright;
+  } else if (polarity == "dark") {
+    parameters.polarity = DotPolarity::kDark;
+  } else if (polarity == "both") {
+    parameters.polarity = DotPolarity::kBoth;
+  } else {
+    throw table.error("polarity", "\"bright\", \"dark\" or \"both\"", polarity);
+  }
+  table.refuse_unknown_keys();
+  return parameters;
+}
+
+// The mission's [[camera]] tables, put into the order of the rig; every camera of the rig exactly once.
+std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig) {
+  std::vector<CameraMission> cameras(rig.cameras.size());
+  std::vector<bool> seen(rig.cameras.size(), false);
+  for (const TomlTable& table : root.tables("camera")) {
+    const std::string name = table.text("name");
+    std::size_t at = 0;
+    while (at < rig.cameras.size() && rig.cameras[at].name.view() != name) ++at;
+    if (at == rig.cameras.size()) {
+      throw table.error("name", "a camera of the rig " + std::string(rig.name.view()), name);
+    }
+    if (seen[at]) throw table.error("name", "each camera once", name + " again");
+    seen[at] = true;
+    CameraMission& camera = cameras[at];
+    camera.driver = table.text("driver");
+    if (camera.driver != "recorded") throw table.error("driver", "\"recorded\"", camera.driver);
+    camera.bits = static_cast<int>(table.integer("bits", {8, 16}, 8));
+    if (const auto extractor = table.table_if("extractor")) camera.extractor = read_extractor(*extractor);
+    table.refuse_unknown_keys();
+  }
+  for (std::size_t c = 0; c < seen.size(); ++c) {
+    if (!seen[c]) {
+      throw root.error("camera", "a [[camera]] for every camera of the rig",
+                       "none for " + std::string(rig.cameras[c].name.view()));
+    }
+  }
+  return cameras;
+}
+
+std::vector<TargetBody> read_bodies(const TomlTable& root) {
+  std::vector<TargetBody> bodies;
+  for (const TomlTable& table : root.tables_if("body")) {
+    const std::string name = table.text("name");
+    for (const TargetBody& body : bodies) {
+      if (body.name.view() == name) throw table.error("name", "each body once", name + " again");
+    }
+    if (bodies.size() == limits::kTargetBodies) {
+      throw table.error("name", "at most " + std::to_string(limits::kTargetBodies) + " bodies", "one more, " + name);
+    }
+    TargetBody body = read_target_file(table.path("targets"));
+    body.name = Name(name);
+    bodies.push_back(body);
+    table.refuse_unknown_keys();
+  }
+  return bodies;
+}
+
+TrackerParameters read_tracker(const TomlTable& table) {
+  TrackerParameters p;
+  p.gate.chi2 = table.number("gate_chi2", {1, 1000}, p.gate.chi2);
+  p.gate.floor_px = table.number("gate_floor_px", {0, 10}, p.gate.floor_px);
+  p.floor_px = table.number("lens_error_px", {0, 10}, p.floor_px);
+  p.sky_angular_acceleration = table.number("sky_angular_acceleration", {0, 100}, p.sky_angular_acceleration);
+  p.body_angular_acceleration = table.number("body_angular_acceleration", {0, 100}, p.body_angular_acceleration);
+  p.body_linear_acceleration = table.number("body_linear_acceleration", {0, 100}, p.body_linear_acceleration);
+  p.least_star_pairs = static_cast<int>(table.integer("least_star_pairs", {3, 100}, p.least_star_pairs));
+  p.least_target_pairs = static_cast<int>(table.integer("least_target_pairs", {3, 64}, p.least_target_pairs));
+  p.patience = static_cast<int>(table.integer("patience", {1, 1000}, p.patience));
+  table.refuse_unknown_keys();
+  return p;
+}
+
+}  // namespace
+
+Mission read_mission(const std::filesystem::path& file) {
+  const TomlTable root = TomlTable::read(file);
+  Mission mission;
+  mission.file = file.string();
+  const std::string spacecraft = root.text("spacecraft");
+  if (spacecraft.empty() || spacecraft.size() > limits::kNameLength) {
+    throw root.error("spacecraft", "a name of 1 to " + std::to_string(limits::kNameLength) + " characters", spacecraft);
+  }
+  mission.spacecraft = Name(spacecraft);
+  mission.frame_rate_hz = root.number("frame_rate_hz", {0.01, 1000});
+  mission.epoch_utc = root.text("epoch", "");
+  if (!mission.epoch_utc.empty()) {
+    try {
+      parse_utc(mission.epoch_utc);
+    } catch (const std::exception&) {
+      throw root.error("epoch", "a UTC time like 2026-03-20T12:00:00Z", mission.epoch_utc);
+    }
+  }
+  mission.rig = read_rig_file(root.path("rig"));
+  mission.cameras = read_cameras(root, mission.rig);
+  if (root.has("recording")) mission.recording = root.path("recording");
+  mission.bodies = read_bodies(root);
+  mission.sky_magnitude_limit = root.number("sky_magnitude_limit", {0, 8}, mission.sky_magnitude_limit);
+  if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
+  if (const auto imaging = root.table_if("imaging")) {
+    mission.panorama_width = static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));
+    mission.panorama_period = static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
+    imaging->refuse_unknown_keys();
+  }
+  mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));
+  root.refuse_unknown_keys();
+  return mission;
+}
+
+}  // namespace omma

@@ -1,0 +1,45 @@
+// Mission: everything the flight program is told at start-up, read from one TOML file (and the files it names).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "components/attitude/attitude.hpp"
+#include "components/catalogue/target.hpp"
+#include "components/extractor/extractor_parameters.hpp"
+#include "components/geometry/rig.hpp"
+#include "components/pose/relative_pose.hpp"
+#include "components/tracker/tracker_parameters.hpp"
+
+namespace omma {
+
+/// Where one camera's frames come from and how its dots are found.
+struct CameraMission {
+  std::string driver;    ///< "recorded"
+  int bits = 8;          ///< of a pixel: the white level is 2^bits − 1
+  ExtractorParameters extractor;
+};
+
+struct Mission {
+  std::string file;
+  Name spacecraft;
+  double frame_rate_hz = 10;
+  std::string epoch_utc;  ///< of frame 0; empty: stars at their J2000 places
+  double sky_magnitude_limit = 5.5;  ///< faintest star paired while tracking
+  Rig rig;
+  std::vector<CameraMission> cameras;  ///< in the order of the rig
+  std::filesystem::path recording;     ///< folder of recorded frames, may be empty
+  std::vector<TargetBody> bodies;
+  TrackerParameters tracker;
+  AttitudeParameters attitude;
+  RelativePoseParameters pose;
+  int panorama_width = 1024;   ///< [px]; the height is half of it
+  int panorama_period = 10;    ///< frame sets from one panorama to the next
+  int dds_domain = 0;
+};
+
+/// Reads and checks a mission; InputError names file, line and field of the first thing that is wrong.
+Mission read_mission(const std::filesystem::path& file);
+
+}  // namespace omma

@@ -40,7 +40,8 @@ struct Annotation {
   std::optional<SkyView> sky;      ///< draw the grid
 };
 
-/// Small images are enlarged by a whole factor so that names can be read; the legend is a strip below the image.
+/// Small images are enlarged by a whole factor so that names can be read; the legend is a strip below the
+/// image.
 /// @throws std::runtime_error when the image is empty
 Canvas annotate(const ImageView& image, const Annotation& annotation);
 

@@ -21,7 +21,7 @@ enum class FrameStatus : std::uint8_t {
 /// One image of one camera. The pixels stay valid until the next `grab` of the same camera.
 struct Frame {
   ImageView image;
-  std::uint64_t number = 0;        ///< frame id: the trigger it belongs to
+  std::uint64_t number = 0;         ///< frame id: the trigger it belongs to
   TimeNs exposure_midpoint_ns = 0;  ///< on-board time
   FrameStatus status = FrameStatus::kMissing;
 };

@@ -10,9 +10,9 @@ enum class PixelFormat : std::uint8_t { kGrey8, kGrey16 };
 
 struct ImageView {
   const std::byte* data = nullptr;
-  int width = 0;                  ///< [px]
-  int height = 0;                 ///< [px]
-  std::ptrdiff_t stride = 0;      ///< bytes from one row to the next
+  int width = 0;              ///< [px]
+  int height = 0;             ///< [px]
+  std::ptrdiff_t stride = 0;  ///< bytes from one row to the next
   PixelFormat format = PixelFormat::kGrey8;
   std::uint16_t white_level = 255;  ///< grey level at which a pixel is full (255, 4095, 16383, 65535)
 

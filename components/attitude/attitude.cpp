@@ -21,9 +21,11 @@ void Attitude::step(const Tick& /*tick*/) noexcept {
 
   sights_.clear();
   for (const Pairing& pairing : sky.pairs) sights_.push_back(pairing.sight);
-  out.solution = solve_attitude(sights_, sky.rig_from_j2000, parameters_.solve, {out.used.data(), out.used.size()});
-  out.valid = (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
-              out.solution.pairs >= parameters_.least_pairs;
+  out.solution =
+      solve_attitude(sights_, sky.rig_from_j2000, parameters_.solve, {out.used.data(), out.used.size()});
+  out.valid =
+      (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
+      out.solution.pairs >= parameters_.least_pairs;
   if (!out.valid) return;
 
   // q and −q are one attitude; keep the sign that continues the last one.

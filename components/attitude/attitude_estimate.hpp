@@ -12,8 +12,8 @@ namespace omma {
 
 struct AttitudeEstimate {
   std::uint64_t frame = 0;
-  TimeNs time_ns = 0;     ///< exposure midpoint
-  bool valid = false;     ///< false: `solution` is not to be used
+  TimeNs time_ns = 0;  ///< exposure midpoint
+  bool valid = false;  ///< false: `solution` is not to be used
   AttitudeSolution solution;
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  ///< of the rig, rig frame [rad/s]
   bool rate_valid = false;

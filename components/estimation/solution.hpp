@@ -11,22 +11,22 @@
 namespace omma {
 
 enum class SolveStatus : std::uint8_t {
-  kNone,              ///< nothing was solved
+  kNone,  ///< nothing was solved
   kSolved,
-  kIterationCap,      ///< usable, but the cap stopped it before convergence
+  kIterationCap,  ///< usable, but the cap stopped it before convergence
   kTooFewPairs,
-  kUnobservable,      ///< the normal matrix is singular: the sights do not fix the unknowns
-  kInconsistent,      ///< residuals far larger than the dots' own uncertainties
+  kUnobservable,  ///< the normal matrix is singular: the sights do not fix the unknowns
+  kInconsistent,  ///< residuals far larger than the dots' own uncertainties
 };
 
 struct AttitudeSolution {
   SolveStatus status = SolveStatus::kNone;
   Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< δθ, rig frame [rad²]
-  double chi2 = 0;              ///< sum of squared whitened residuals of the pairs used
-  double residual_rms = 0;      ///< angular residual of the pairs used [rad]
-  std::uint16_t pairs = 0;      ///< used
-  std::uint16_t culled = 0;     ///< dropped for their residual
+  double chi2 = 0;           ///< sum of squared whitened residuals of the pairs used
+  double residual_rms = 0;   ///< angular residual of the pairs used [rad]
+  std::uint16_t pairs = 0;   ///< used
+  std::uint16_t culled = 0;  ///< dropped for their residual
   std::uint16_t iterations = 0;
 };
 
@@ -35,7 +35,7 @@ struct PoseSolution {
   Pose rig_from_body;
   Matrix6d covariance = Matrix6d::Zero();  ///< (δθ, δt), rig frame [rad², rad·m, m²]
   double chi2 = 0;
-  double residual_rms = 0;      ///< angular residual of the pairs used [rad]
+  double residual_rms = 0;  ///< angular residual of the pairs used [rad]
   std::uint16_t pairs = 0;
   std::uint16_t culled = 0;
   std::uint16_t iterations = 0;

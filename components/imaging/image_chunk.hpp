@@ -1,5 +1,5 @@
-// ImageChunk: some rows of an image on its way to the ground. Images are large and telemetry packets small, so
-// an image travels a few rows per frame set and is put together again by its number.
+// ImageChunk: some rows of an image on its way to the ground. Images are large and telemetry packets small,
+// so an image travels a few rows per frame set and is put together again by its number.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ struct ImageChunk {
   TimeNs time_ns = 0;       ///< its exposure midpoint
   bool valid = false;       ///< false: no rows this time
   ImageKind kind = ImageKind::kPanoramaJ2000;
-  std::uint32_t image = 0;     ///< counts images; chunks with the same number belong together
-  std::uint16_t width = 0;     ///< of the whole image [px]
-  std::uint16_t height = 0;    ///< of the whole image [px]
+  std::uint32_t image = 0;   ///< counts images; chunks with the same number belong together
+  std::uint16_t width = 0;   ///< of the whole image [px]
+  std::uint16_t height = 0;  ///< of the whole image [px]
   std::uint16_t first_row = 0;
-  std::uint16_t rows = 0;      ///< rows × width bytes of `pixels` are in use
+  std::uint16_t rows = 0;  ///< rows × width bytes of `pixels` are in use
   std::array<std::uint8_t, limits::kImageChunkBytes> pixels{};  ///< grey, row after row, top row first
 };
 

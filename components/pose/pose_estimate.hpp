@@ -12,7 +12,7 @@ namespace omma {
 
 struct PoseEstimate {
   std::uint64_t frame = 0;
-  TimeNs time_ns = 0;   ///< exposure midpoint
+  TimeNs time_ns = 0;     ///< exposure midpoint
   std::uint8_t body = 0;  ///< index in the mission
   bool valid = false;
   PoseSolution solution;

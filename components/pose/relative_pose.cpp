@@ -30,8 +30,9 @@ void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexc
   SolveOptions options = parameters_.solve;
   // While a body is tracked its predicted rotation helps to choose between the two minima of a flat card.
   out.solution = solve_pose(sights_, body.rig_from_body, options, {out.used.data(), out.used.size()});
-  out.valid = (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
-              out.solution.pairs >= parameters_.least_pairs;
+  out.valid =
+      (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
+      out.solution.pairs >= parameters_.least_pairs;
   if (!out.valid) return;
   Eigen::Quaterniond& q = out.solution.rig_from_body.rotation;
   if (has_last_[body.body] && q.dot(last_[body.body]) < 0) q.coeffs() = -q.coeffs();

@@ -57,11 +57,13 @@ std::span<const Assignment> Assigner::assign(std::span<const PredictedPoint> pre
       const Dot& dot = dots.dots[d];
       const double distance2 =
           mahalanobis2(dot.pixel - point.pixel, point.covariance + dot.covariance + floor);
-      // Rivals are looked for a little beyond the gate, so that a pair at its edge is not taken for the only one.
+      // Rivals are looked for a little beyond the gate, so that a pair at its edge is not taken for the only
+      // one.
       if (distance2 > gate.chi2 + gate.ambiguity) return;
       const auto d2 = static_cast<float>(distance2);
       offer(dot_of_prediction_[i], second_dot_of_prediction_[i], d2, dot.flux, d);
-      offer(prediction_of_dot_[d], second_prediction_of_dot_[d], d2, point.weight, static_cast<std::uint16_t>(i));
+      offer(prediction_of_dot_[d], second_prediction_of_dot_[d], d2, point.weight,
+            static_cast<std::uint16_t>(i));
     });
   }
 

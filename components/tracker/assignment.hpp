@@ -13,9 +13,10 @@ namespace omma {
 /// Where a star or a target should be seen in one image.
 struct PredictedPoint {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of the prediction [px²], the dot's own not included
-  std::uint16_t entry = 0;    ///< caller's number of the star or target
-  float weight = 1;           ///< expected brightness, any linear unit; the much brighter of two rivals wins
+  Eigen::Matrix2d covariance =
+      Eigen::Matrix2d::Zero();  ///< of the prediction [px²], the dot's own not included
+  std::uint16_t entry = 0;      ///< caller's number of the star or target
+  float weight = 1;  ///< expected brightness, any linear unit; the much brighter of two rivals wins
 };
 
 /// A prediction and the dot it got.
@@ -26,10 +27,10 @@ struct Assignment {
 };
 
 struct AssignmentGate {
-  double chi2 = 13.8;       ///< gate on the squared Mahalanobis distance; 13.8 loses one true pair in 1000
-  double floor_px = 0.1;    ///< added in quadrature per axis: what neither covariance knows (lens) [px]
-  double ambiguity = 9.0;   ///< a rival within this much of the squared distance makes a pairing ambiguous
-  float dominance = 4.0F;   ///< unless one of the rivals is this many times brighter
+  double chi2 = 13.8;      ///< gate on the squared Mahalanobis distance; 13.8 loses one true pair in 1000
+  double floor_px = 0.1;   ///< added in quadrature per axis: what neither covariance knows (lens) [px]
+  double ambiguity = 9.0;  ///< a rival within this much of the squared distance makes a pairing ambiguous
+  float dominance = 4.0F;  ///< unless one of the rivals is this many times brighter
 };
 
 /// Work space and result of one image's assignment; static storage, no allocation.

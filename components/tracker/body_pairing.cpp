@@ -12,7 +12,8 @@ void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
   const Eigen::Matrix3d rotation = prediction.rig_from_body.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < body.targets.size(); ++i) {
     const Eigen::Vector3d arm = rotation * body.targets[i].position;
-    const Eigen::Vector3d gap = arm + prediction.rig_from_body.translation - camera.rig_from_camera.translation;
+    const Eigen::Vector3d gap =
+        arm + prediction.rig_from_body.translation - camera.rig_from_camera.translation;
     const double range = gap.norm();
     if (!(range > 0)) continue;
     const Eigen::Vector3d direction = gap / range;
@@ -31,8 +32,9 @@ void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
   }
 }
 
-void BodyPairing::pair(SeenDots& dots, const Rig& rig, const TargetBody& body, const PredictedPose& prediction,
-                       const AssignmentGate& gate, StaticVector<Pairing, limits::kTargetPairs>& out) noexcept {
+void BodyPairing::pair(SeenDots& dots, const Rig& rig, const TargetBody& body,
+                       const PredictedPose& prediction, const AssignmentGate& gate,
+                       StaticVector<Pairing, limits::kTargetPairs>& out) noexcept {
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
     if (dots.list(c).dots.empty()) continue;
     predict(rig.cameras[c], body, prediction);

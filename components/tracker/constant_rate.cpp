@@ -3,7 +3,9 @@
 namespace omma {
 namespace {
 
-double seconds(TimeNs interval_ns) { return 1e-9 * static_cast<double>(interval_ns); }
+double seconds(TimeNs interval_ns) {
+  return 1e-9 * static_cast<double>(interval_ns);
+}
 
 }  // namespace
 

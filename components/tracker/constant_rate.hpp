@@ -1,8 +1,8 @@
 // Constant-rate prediction from the last two estimates, with its covariance (the two estimates' own, and an
 // acceleration the model does not know).
 //
-// With h = (t − t₂)/(t₂ − t₁) the prediction x₂ + h (x₂ − x₁) has covariance (1+h)² P₂ + h² P₁ + Q, where Q comes
-// from an acceleration a of standard deviation σ: error ½ a (t − t₂)(t − t₁).
+// With h = (t − t₂)/(t₂ − t₁) the prediction x₂ + h (x₂ − x₁) has covariance (1+h)² P₂ + h² P₁ + Q, where Q
+// comes from an acceleration a of standard deviation σ: error ½ a (t − t₂)(t − t₁).
 #pragma once
 
 #include "components/geometry/pose.hpp"
@@ -19,7 +19,8 @@ class AttitudePrediction {
 
   void reset() noexcept { count_ = 0; }
   /// A new estimate; one no newer than the last is ignored.
-  void update(TimeNs time_ns, const Eigen::Quaterniond& rig_from_j2000, const Eigen::Matrix3d& covariance) noexcept;
+  void update(TimeNs time_ns, const Eigen::Quaterniond& rig_from_j2000,
+              const Eigen::Matrix3d& covariance) noexcept;
   /// True once the rate is known.
   bool ready() const noexcept { return count_ == 2; }
   TimeNs last_time_ns() const noexcept { return last_time_ns_; }
@@ -31,7 +32,8 @@ class AttitudePrediction {
   TimeNs last_time_ns_ = 0;
   double interval_s_ = 0;  // between the last two estimates
   Eigen::Quaterniond last_ = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d turn_ = Eigen::Vector3d::Zero();  // rotation vector from the one before to the last, rig frame
+  Eigen::Vector3d turn_ =
+      Eigen::Vector3d::Zero();  // rotation vector from the one before to the last, rig frame
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d covariance_before_ = Eigen::Matrix3d::Zero();
 };

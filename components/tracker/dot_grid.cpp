@@ -13,7 +13,8 @@ void DotGrid::build(const DotList& dots, int width, int height) noexcept {
     cell[i] = static_cast<std::uint16_t>(cell_of(p.y(), cell_height_) * kCells + cell_of(p.x(), cell_width_));
     ++start_[cell[i] + 1U];
   }
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] = static_cast<std::uint16_t>(start_[c] + start_[c - 1]);
+  for (std::size_t c = 1; c < start_.size(); ++c)
+    start_[c] = static_cast<std::uint16_t>(start_[c] + start_[c - 1]);
   std::array<std::uint16_t, kCells * kCells> filled{};
   for (std::size_t i = 0; i < dots.dots.size(); ++i) {
     order_[start_[cell[i]] + filled[cell[i]]++] = static_cast<std::uint16_t>(i);

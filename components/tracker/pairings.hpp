@@ -13,9 +13,9 @@ namespace omma {
 
 struct Pairing {
   Sight sight;
-  std::uint8_t camera = 0;       ///< index in the rig
-  std::uint16_t dot = 0;         ///< index in the camera's DotList
-  std::uint16_t entry = 0;       ///< star: HR number; target: index in the body
+  std::uint8_t camera = 0;        ///< index in the rig
+  std::uint16_t dot = 0;          ///< index in the camera's DotList
+  std::uint16_t entry = 0;        ///< star: HR number; target: index in the body
   std::uint32_t persistence = 0;  ///< frame sets this pairing has lasted
 };
 
@@ -23,7 +23,8 @@ enum class TrackState : std::uint8_t { kLost, kAcquired, kTracking };
 
 struct SkyPairings {
   TrackState state = TrackState::kLost;
-  Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();  ///< predicted or acquired: where the solver starts
+  Eigen::Quaterniond rig_from_j2000 =
+      Eigen::Quaterniond::Identity();  ///< predicted or acquired: where the solver starts
   StaticVector<Pairing, limits::kStarPairs> pairs;
 };
 

@@ -7,13 +7,13 @@ namespace omma {
 
 struct TrackerParameters {
   AssignmentGate gate;
-  double floor_px = 0.05;  ///< lens calibration error, per axis, added to every dot [px]
+  double floor_px = 0.05;                   ///< lens calibration error, per axis, added to every dot [px]
   double sky_angular_acceleration = 0.02;   ///< of the rig, not modelled [rad/s²]
   double body_angular_acceleration = 0.05;  ///< of a body relative to the rig, not modelled [rad/s²]
   double body_linear_acceleration = 0.05;   ///< of a body relative to the rig, not modelled [m/s²]
-  int least_star_pairs = 5;    ///< fewer while tracking: the sky is lost and searched again
-  int least_target_pairs = 4;  ///< fewer while tracking: the body is lost and searched again
-  int patience = 3;            ///< frame sets a prediction is trusted without a new estimate
+  int least_star_pairs = 5;                 ///< fewer while tracking: the sky is lost and searched again
+  int least_target_pairs = 4;               ///< fewer while tracking: the body is lost and searched again
+  int patience = 3;                         ///< frame sets a prediction is trusted without a new estimate
 };
 
 }  // namespace omma

@@ -12,7 +12,8 @@ ExtractorParameters read_extractor(const TomlTable& table) {
   ExtractorParameters parameters;
   parameters.threshold = static_cast<float>(table.number("threshold", {1, 100}, parameters.threshold));
   parameters.gain = static_cast<float>(table.number("gain_e_per_level", {0, 1e6}, parameters.gain));
-  parameters.black_level = static_cast<float>(table.number("black_level", {0, 65535}, parameters.black_level));
+  parameters.black_level =
+      static_cast<float>(table.number("black_level", {0, 65535}, parameters.black_level));
   const std::string polarity = table.text("polarity", "bright");
   if (polarity == "bright") {
     parameters.polarity = DotPolarity::kBright;
@@ -64,7 +65,8 @@ std::vector<TargetBody> read_bodies(const TomlTable& root) {
       if (body.name.view() == name) throw table.error("name", "each body once", name + " again");
     }
     if (bodies.size() == limits::kTargetBodies) {
-      throw table.error("name", "at most " + std::to_string(limits::kTargetBodies) + " bodies", "one more, " + name);
+      throw table.error("name", "at most " + std::to_string(limits::kTargetBodies) + " bodies",
+                        "one more, " + name);
     }
     TargetBody body = read_target_file(table.path("targets"));
     body.name = Name(name);
@@ -80,7 +82,8 @@ TrackerParameters read_tracker(const TomlTable& table) {
   p.gate.floor_px = table.number("gate_floor_px", {0, 10}, p.gate.floor_px);
   p.floor_px = table.number("lens_error_px", {0, 10}, p.floor_px);
   p.sky_angular_acceleration = table.number("sky_angular_acceleration", {0, 100}, p.sky_angular_acceleration);
-  p.body_angular_acceleration = table.number("body_angular_acceleration", {0, 100}, p.body_angular_acceleration);
+  p.body_angular_acceleration =
+      table.number("body_angular_acceleration", {0, 100}, p.body_angular_acceleration);
   p.body_linear_acceleration = table.number("body_linear_acceleration", {0, 100}, p.body_linear_acceleration);
   p.least_star_pairs = static_cast<int>(table.integer("least_star_pairs", {3, 100}, p.least_star_pairs));
   p.least_target_pairs = static_cast<int>(table.integer("least_target_pairs", {3, 64}, p.least_target_pairs));
@@ -97,7 +100,8 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.file = file.string();
   const std::string spacecraft = root.text("spacecraft");
   if (spacecraft.empty() || spacecraft.size() > limits::kNameLength) {
-    throw root.error("spacecraft", "a name of 1 to " + std::to_string(limits::kNameLength) + " characters", spacecraft);
+    throw root.error("spacecraft", "a name of 1 to " + std::to_string(limits::kNameLength) + " characters",
+                     spacecraft);
   }
   mission.spacecraft = Name(spacecraft);
   mission.frame_rate_hz = root.number("frame_rate_hz", {0.01, 1000});
@@ -116,8 +120,10 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.sky_magnitude_limit = root.number("sky_magnitude_limit", {0, 8}, mission.sky_magnitude_limit);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   if (const auto imaging = root.table_if("imaging")) {
-    mission.panorama_width = static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));
-    mission.panorama_period = static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
+    mission.panorama_width =
+        static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));
+    mission.panorama_period =
+        static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
     imaging->refuse_unknown_keys();
   }
   mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));

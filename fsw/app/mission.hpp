@@ -1,4 +1,5 @@
-// Mission: everything the flight program is told at start-up, read from one TOML file (and the files it names).
+// Mission: everything the flight program is told at start-up, read from one TOML file (and the files it
+// names).
 #pragma once
 
 #include <filesystem>
@@ -16,8 +17,8 @@ namespace omma {
 
 /// Where one camera's frames come from and how its dots are found.
 struct CameraMission {
-  std::string driver;    ///< "recorded"
-  int bits = 8;          ///< of a pixel: the white level is 2^bits − 1
+  std::string driver;  ///< "recorded"
+  int bits = 8;        ///< of a pixel: the white level is 2^bits − 1
   ExtractorParameters extractor;
 };
 
@@ -25,7 +26,7 @@ struct Mission {
   std::string file;
   Name spacecraft;
   double frame_rate_hz = 10;
-  std::string epoch_utc;  ///< of frame 0; empty: stars at their J2000 places
+  std::string epoch_utc;             ///< of frame 0; empty: stars at their J2000 places
   double sky_magnitude_limit = 5.5;  ///< faintest star paired while tracking
   Rig rig;
   std::vector<CameraMission> cameras;  ///< in the order of the rig
@@ -34,8 +35,8 @@ struct Mission {
   TrackerParameters tracker;
   AttitudeParameters attitude;
   RelativePoseParameters pose;
-  int panorama_width = 1024;   ///< [px]; the height is half of it
-  int panorama_period = 10;    ///< frame sets from one panorama to the next
+  int panorama_width = 1024;  ///< [px]; the height is half of it
+  int panorama_period = 10;   ///< frame sets from one panorama to the next
   int dds_domain = 0;
 };
 

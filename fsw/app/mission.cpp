@@ -1,6 +1,6 @@
 #include "fsw/app/mission.hpp"
 
-#include "components/catalogue/apparent_place.hpp"
+#include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/geometry/rig_file.hpp"
 #include "fsw/services/toml_table.hpp"
@@ -80,6 +80,7 @@ TrackerParameters read_tracker(const TomlTable& table) {
   TrackerParameters p;
   p.gate.chi2 = table.number("gate_chi2", {1, 1000}, p.gate.chi2);
   p.gate.floor_px = table.number("gate_floor_px", {0, 10}, p.gate.floor_px);
+  p.faintest_star = static_cast<float>(table.number("faintest_star", {0, 8}, p.faintest_star));
   p.floor_px = table.number("lens_error_px", {0, 10}, p.floor_px);
   p.sky_angular_acceleration = table.number("sky_angular_acceleration", {0, 100}, p.sky_angular_acceleration);
   p.body_angular_acceleration =
@@ -117,7 +118,6 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.cameras = read_cameras(root, mission.rig);
   if (root.has("recording")) mission.recording = root.path("recording");
   mission.bodies = read_bodies(root);
-  mission.sky_magnitude_limit = root.number("sky_magnitude_limit", {0, 8}, mission.sky_magnitude_limit);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   if (const auto imaging = root.table_if("imaging")) {
     mission.panorama_width =

@@ -27,7 +27,6 @@ struct Mission {
   Name spacecraft;
   double frame_rate_hz = 10;
   std::string epoch_utc;             ///< of frame 0; empty: stars at their J2000 places
-  double sky_magnitude_limit = 5.5;  ///< faintest star paired while tracking
   Rig rig;
   std::vector<CameraMission> cameras;  ///< in the order of the rig
   std::filesystem::path recording;     ///< folder of recorded frames, may be empty

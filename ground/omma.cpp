@@ -5,11 +5,13 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/command.hpp"
+#include "ground/solve/solve.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Omma ground tools: solve photographs, simulate, monitor, record, report."};
   app.require_subcommand(1);
   omma::ground::CommandContext context;
+  omma::ground::add_solve(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,48 @@
+// Image → dots of one camera: background and noise map, detection filter, connected components, measurement.
+// One pass over the image; all scratch is made at construction. Self-contained: may run on any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "components/extractor/background_map.hpp"
+#include "components/extractor/blob_finder.hpp"
+#include "components/extractor/detection_filter.hpp"
+#include "components/extractor/dot.hpp"
+#include "components/extractor/extractor_parameters.hpp"
+#include "hal/image.hpp"
+
+namespace omma {
+
+class DotExtractor {
+ public:
+  /// For images of exactly this size [px].
+  DotExtractor(int width, int height);
+
+  /// Fills the dots, their count dropped, background and noise of `list`; its frame, time and status are the
+  /// caller's. An image of another size, or smaller than 3×3, gives no dots.
+  void extract(const ImageView& image, const ExtractorParameters& parameters, DotList& list) noexcept;
+
+ private:
+  void search(const ImageView& image, const ExtractorParameters& parameters, bool invert) noexcept;
+  PixelScale pixel_scale(const ImageView& image, bool invert) const noexcept;
+  void prepare_thresholds(const PixelScale& scale, float threshold) noexcept;
+  void add_runs(const ImageView& image, const PixelScale& scale, int v) noexcept;
+  void add_pixels(const ImageView& image, bool invert, int first, int last, int v, Blob& blob) noexcept;
+  void keep_best(DotList& list) noexcept;
+
+  static constexpr std::size_t kCandidates = 4096;
+
+  int width_;
+  int height_;
+  BackgroundMap background_;
+  BlobFinder blobs_;
+  std::vector<std::uint16_t> smoothed_[3];  // rows v−1, v, v+1, in turn
+  std::vector<std::int16_t> threshold_;     // one row of the image per row of cells
+  std::vector<std::uint64_t> bits_;
+  std::size_t row_length_ = 0;  // width rounded up to whole words, and one word
+  std::vector<Dot> candidates_;
+  std::uint32_t overflow_ = 0;  // candidates beyond the scratch
+};
+
+}  // namespace omma

@@ -1,0 +1,194 @@
+#include "ground/solve/photograph_solver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "components/estimation/least_squares.hpp"
+#include "components/extractor/dot_extractor.hpp"
+#include "components/tracker/seen_dots.hpp"
+#include "components/tracker/sky_pairing.hpp"
+#include "components/tracker/star_identification.hpp"
+
+namespace omma::ground {
+namespace {
+
+// What a lens file may be wrong by before its residuals have been seen [px].
+constexpr double kLensErrorAtFirst = 0.3;
+// No photograph's lens is known better than this [px].
+constexpr double kLeastLensError = 0.02;
+
+class Stopwatch {
+ public:
+  double lap_ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double finest_pixel_angle(const Rig& rig) {
+  double finest = std::numeric_limits<double>::infinity();
+  for (const RigCamera& camera : rig.cameras) finest = std::min(finest, camera.lens.pixel_angle());
+  return finest;
+}
+
+double wrapped(double angle) {
+  return angle < 0 ? angle + 2 * M_PI : angle;
+}
+
+SolvedCamera pointing(const RigCamera& camera, const Eigen::Quaterniond& rig_from_j2000) {
+  const Eigen::Matrix3d j2000_from_camera =
+      (camera.rig_from_camera.rotation.conjugate() * rig_from_j2000).conjugate().toRotationMatrix();
+  const Eigen::Vector3d axis = j2000_from_camera.col(2);
+  const Eigen::Vector3d up = -j2000_from_camera.col(1);
+  SolvedCamera solved;
+  solved.right_ascension = wrapped(std::atan2(axis.y(), axis.x()));
+  solved.declination = std::asin(std::clamp(axis.z(), -1.0, 1.0));
+  const double ra = solved.right_ascension;
+  const double dec = solved.declination;
+  const Eigen::Vector3d north(-std::sin(dec) * std::cos(ra), -std::sin(dec) * std::sin(ra), std::cos(dec));
+  const Eigen::Vector3d east(-std::sin(ra), std::cos(ra), 0);
+  solved.roll = wrapped(std::atan2(up.dot(east), up.dot(north)));
+  return solved;
+}
+
+}  // namespace
+
+struct PhotographSolver::Work {
+  Work(const Rig& the_rig, const SolverOptions& the_options)
+      : rig(the_rig),
+        options(the_options),
+        // Two stars within two pixels are one dot.
+        catalogue(options.observer, {options.magnitude_limit, 2 * finest_pixel_angle(rig)}),
+        identification(catalogue, sky_coverage(rig)) {
+    for (const RigCamera& camera : rig.cameras) {
+      extractors.push_back(std::make_unique<DotExtractor>(camera.lens.width(), camera.lens.height()));
+    }
+  }
+
+  void extract(const std::vector<ImageView>& images);
+  bool identify(PhotographSolution& solution);
+  void pair_and_solve(const PredictedAttitude& prediction, double lens_error, PhotographSolution& solution);
+  double residuals(PhotographSolution& solution) const;
+  void finish(PhotographSolution& solution) const;
+
+  Rig rig;
+  SolverOptions options;
+  StarCatalogue catalogue;
+  StarIdentification identification;
+  std::vector<std::unique_ptr<DotExtractor>> extractors;
+  DotLists dots;
+  SeenDots seen;
+  SkyPairing sky_pairing;
+  Identification identified;
+};
+
+void PhotographSolver::Work::extract(const std::vector<ImageView>& images) {
+  dots.cameras.resize(rig.cameras.size());
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    dots.cameras[c] = {};
+    if (c < images.size() && !images[c].empty()) {
+      extractors[c]->extract(images[c], options.extractor, dots.cameras[c]);
+      dots.cameras[c].status = FrameStatus::kFresh;
+    }
+  }
+}
+
+bool PhotographSolver::Work::identify(PhotographSolution& solution) {
+  seen.build(dots, rig, kLensErrorAtFirst);
+  identification.identify(seen.rays(), identified);
+  solution.log10_false_match = identified.log10_false_match;
+  if (identified.status == IdentificationStatus::kIdentified) return true;
+  solution.reason = reason(identified.status);
+  return false;
+}
+
+// Every dot the attitude explains, and the least squares over them.
+void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction, double lens_error,
+                                            PhotographSolution& solution) {
+  seen.build(dots, rig, lens_error);
+  AssignmentGate gate;
+  gate.floor_px = lens_error;
+  static thread_local StaticVector<Pairing, limits::kStarPairs> pairs;
+  pairs.clear();
+  sky_pairing.pair(seen, rig, catalogue.stars(), prediction, options.magnitude_limit, gate, {}, pairs);
+  std::vector<Sight> sights;
+  for (const Pairing& pairing : pairs) sights.push_back(pairing.sight);
+  std::vector<std::uint8_t> used(sights.size());
+  solution.attitude = solve_attitude(sights, prediction.rig_from_j2000, SolveOptions{}, used);
+  solution.pairs.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) solution.pairs.push_back({pairs[i], used[i] != 0, 0});
+}
+
+// Distance of each dot from its star [px]; returns its root mean square over the used ones.
+double PhotographSolver::Work::residuals(PhotographSolution& solution) const {
+  double sum = 0;
+  int count = 0;
+  for (SolvedPair& pair : solution.pairs) {
+    const RigCamera& camera = rig.cameras[pair.pairing.camera];
+    const Eigen::Vector3d direction = camera.rig_from_camera.rotation.conjugate() *
+                                      (solution.attitude.rig_from_j2000 * pair.pairing.sight.point);
+    Eigen::Vector2d pixel;
+    if (!camera.lens.project(direction, pixel)) continue;
+    pair.residual_px = (dots.cameras[pair.pairing.camera].dots[pair.pairing.dot].pixel - pixel).norm();
+    if (!pair.used) continue;
+    sum += pair.residual_px * pair.residual_px;
+    ++count;
+  }
+  return count == 0 ? 0 : std::sqrt(sum / count);
+}
+
+void PhotographSolver::Work::finish(PhotographSolution& solution) const {
+  for (const RigCamera& camera : rig.cameras) {
+    solution.cameras.push_back(pointing(camera, solution.attitude.rig_from_j2000));
+  }
+  for (const SolvedPair& pair : solution.pairs) {
+    if (pair.used) ++solution.cameras[pair.pairing.camera].stars_used;
+  }
+  solution.stars_used = solution.attitude.pairs;
+}
+
+PhotographSolver::PhotographSolver(const Rig& rig, const SolverOptions& options)
+    : work_(std::make_unique<Work>(rig, options)) {}
+PhotographSolver::~PhotographSolver() = default;
+const DotLists& PhotographSolver::dots() const {
+  return work_->dots;
+}
+
+PhotographSolution PhotographSolver::solve(const std::vector<ImageView>& images) {
+  PhotographSolution solution;
+  Stopwatch stopwatch;
+  work_->extract(images);
+  solution.times.extract_ms = stopwatch.lap_ms();
+  const bool identified = work_->identify(solution);
+  solution.times.identify_ms = stopwatch.lap_ms();
+  if (!identified) return solution;
+
+  // The dots' own covariances do not know what the lens file is wrong by; the residuals do. Solve with a
+  // guess, measure, solve again with what was measured: the uncertainty reported then includes it.
+  PredictedAttitude attitude{work_->identified.rig_from_j2000, work_->identified.covariance};
+  double lens_error = kLensErrorAtFirst;
+  for (int pass = 0; pass < 3; ++pass) {
+    work_->pair_and_solve(attitude, lens_error, solution);
+    solution.residual_rms_px = work_->residuals(solution);
+    if (solution.attitude.status != SolveStatus::kSolved &&
+        solution.attitude.status != SolveStatus::kIterationCap) {
+      solution.reason = "identified stars do not agree on one attitude";
+      return solution;
+    }
+    attitude = {solution.attitude.rig_from_j2000, solution.attitude.covariance};
+    lens_error = std::max(kLeastLensError, solution.residual_rms_px * M_SQRT1_2);  // per axis
+  }
+  solution.times.attitude_ms = stopwatch.lap_ms();
+  solution.solved = true;
+  work_->finish(solution);
+  return solution;
+}
+
+}  // namespace omma::ground

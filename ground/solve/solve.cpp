@@ -7,6 +7,7 @@
 
 #include "components/geometry/lens_file.hpp"
 #include "components/geometry/rig_file.hpp"
+#include "fsw/kernel/input_error.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "ground/solve/solve_report.hpp"
 #include "hal/recorded/image_file.hpp"

@@ -14,9 +14,11 @@ Tracker::Tracker(const TrackerParameters& parameters, const Rig& rig, const Star
       sky_prediction_(parameters.sky_angular_acceleration) {
   bodies_.reserve(bodies.size());
   for (const TargetBody& body : bodies) {
-    bodies_.push_back({&body, TargetIdentifier(body),
-                       PosePrediction(parameters.body_angular_acceleration, parameters.body_linear_acceleration),
-                       {}});
+    bodies_.push_back(
+        {&body,
+         TargetIdentifier(body),
+         PosePrediction(parameters.body_angular_acceleration, parameters.body_linear_acceleration),
+         {}});
   }
   pairings->bodies.resize(bodies_.size());
 }
@@ -50,11 +52,13 @@ void Tracker::step(const Tick& /*tick*/) noexcept {
 
 void Tracker::learn() noexcept {
   if (attitude->valid) {
-    sky_prediction_.update(attitude->time_ns, attitude->solution.rig_from_j2000, attitude->solution.covariance);
+    sky_prediction_.update(attitude->time_ns, attitude->solution.rig_from_j2000,
+                           attitude->solution.covariance);
   }
   for (const PoseEstimate& pose : poses->bodies) {
     if (pose.valid && pose.body < bodies_.size()) {
-      bodies_[pose.body].prediction.update(pose.time_ns, pose.solution.rig_from_body, pose.solution.covariance);
+      bodies_[pose.body].prediction.update(pose.time_ns, pose.solution.rig_from_body,
+                                           pose.solution.covariance);
     }
   }
 }
@@ -82,8 +86,7 @@ void Tracker::track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count)
     }
     out.state = TrackState::kTracking;
     out.rig_from_body = prediction.rig_from_body;
-    cone_count +=
-        hidden_cones(rig_, *tracked.body, prediction.rig_from_body, cones.subspan(cone_count));
+    cone_count += hidden_cones(rig_, *tracked.body, prediction.rig_from_body, cones.subspan(cone_count));
   }
 }
 
@@ -93,8 +96,8 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
   sky.pairs.clear();
   if (!predictable(sky_prediction_.ready(), sky_prediction_.last_time_ns())) return;
   const PredictedAttitude prediction = sky_prediction_.at(dots->time_ns);
-  sky_pairing_.pair(seen_, rig_, catalogue_.stars(), prediction, parameters_.faintest_star, parameters_.gate, cones,
-                    sky.pairs);
+  sky_pairing_.pair(seen_, rig_, catalogue_.stars(), prediction, parameters_.faintest_star, parameters_.gate,
+                    cones, sky.pairs);
   if (static_cast<int>(sky.pairs.size()) < parameters_.least_star_pairs) {
     for (const Pairing& pair : sky.pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
     sky.pairs.clear();
@@ -112,8 +115,8 @@ void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   // The identified attitude predicts all the other stars, as a tracked one would.
   SkyPairings& sky = pairings->sky;
   const PredictedAttitude found{identification_.rig_from_j2000, identification_.covariance};
-  sky_pairing_.pair(seen_, rig_, catalogue_.stars(), found, parameters_.faintest_star, parameters_.gate, cones,
-                    sky.pairs);
+  sky_pairing_.pair(seen_, rig_, catalogue_.stars(), found, parameters_.faintest_star, parameters_.gate,
+                    cones, sky.pairs);
   sky.state = TrackState::kAcquired;
   sky.rig_from_j2000 = found.rig_from_j2000;
 }

@@ -1,6 +1,6 @@
-// Tracker: dots → pairings. It knows bodies: the sky, and any number of bodies with targets. Where a body's pose
-// can be predicted its database is projected, gated and paired; where not, it is identified from its pattern.
-// What nobody claims is counted as unknown.
+// Tracker: dots → pairings. It knows bodies: the sky, and any number of bodies with targets. Where a body's
+// pose can be predicted its database is projected, gated and paired; where not, it is identified from its
+// pattern. What nobody claims is counted as unknown.
 #pragma once
 
 #include <array>

@@ -7,7 +7,7 @@ namespace omma {
 
 struct TrackerParameters {
   AssignmentGate gate;
-  float faintest_star = 5.5F;  ///< faintest star paired [V]
+  float faintest_star = 5.5F;               ///< faintest star paired [V]
   double floor_px = 0.05;                   ///< lens calibration error, per axis, added to every dot [px]
   double sky_angular_acceleration = 0.02;   ///< of the rig, not modelled [rad/s²]
   double body_angular_acceleration = 0.05;  ///< of a body relative to the rig, not modelled [rad/s²]

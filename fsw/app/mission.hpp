@@ -26,7 +26,7 @@ struct Mission {
   std::string file;
   Name spacecraft;
   double frame_rate_hz = 10;
-  std::string epoch_utc;             ///< of frame 0; empty: stars at their J2000 places
+  std::string epoch_utc;  ///< of frame 0; empty: stars at their J2000 places
   Rig rig;
   std::vector<CameraMission> cameras;  ///< in the order of the rig
   std::filesystem::path recording;     ///< folder of recorded frames, may be empty

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fsw/kernel/crossing.hpp"
+#include "fsw/kernel/processor_stay.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
 #include "fsw/kernel/thread_cpu_time.hpp"
 
@@ -13,6 +14,11 @@ namespace {
 void add_once(std::vector<Crossing*>& crossings, Crossing* crossing) {
   if (std::find(crossings.begin(), crossings.end(), crossing) == crossings.end())
     crossings.push_back(crossing);
+}
+
+// One writer: a load and a store, not a locked addition.
+void count_one(std::atomic<std::uint64_t>& counter) {
+  counter.store(counter.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -73,31 +79,45 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
   timing_.latency.add(latency_ns);
   observer_.beat_started(index_, tick, latency_ns);
   for (Crossing* crossing : acquire_) crossing->acquire();
-  TimeNs wall_before = clock_.stopwatch();
-  TimeNs cpu_before = thread_cpu_time();
+  ProcessorStay stay;
+  CpuMark mark{disturbed_, disturbed_ ? thread_cpu_time() : 0};
+  disturbed_ = false;
+  TimeNs before = clock_.stopwatch();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     Step& step = *steps_[i];
+    stay.begin();
     step.component->step(tick);
     for (Crossing* crossing : step.publish) crossing->publish();
-    const TimeNs wall = clock_.stopwatch();
-    const TimeNs cpu = thread_cpu_time();
-    const StepTime time{wall_before, elapsed(wall_before, wall), cpu - cpu_before};
-    step.timing.wall.add(time.wall_ns);
-    step.timing.cpu.add(time.cpu_ns);
+    const TimeNs after = clock_.stopwatch();
+    StepTime time{.start_ns = before, .wall_ns = elapsed(before, after), .left_processor = !stay.unbroken()};
+    measure_cpu(time, mark);
+    disturbed_ = disturbed_ || time.left_processor;
     const auto position = static_cast<std::uint16_t>(i);
     judge({index_, position, static_cast<std::uint16_t>(first_component_ + i)}, tick, time, step);
-    wall_before = wall;
-    cpu_before = cpu;
+    before = after;
   }
   observer_.beat_finished(index_, tick);
 }
 
+void GroupRunner::measure_cpu(StepTime& time, CpuMark& mark) noexcept {
+  if (!time.left_processor) {
+    time.cpu_ns = time.wall_ns;
+    mark.cpu_ns += time.wall_ns;
+    return;
+  }
+  const TimeNs now = thread_cpu_time();
+  if (mark.known) time.cpu_ns = now - mark.cpu_ns;
+  mark = {true, now};
+}
+
 void GroupRunner::judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept {
+  step.timing.wall.add(time.wall_ns);
+  if (time.cpu_ns != StepTime::kUnknown) step.timing.cpu.add(time.cpu_ns);
+  if (time.left_processor) count_one(step.timing.left_processor);
   observer_.component_stepped(place, tick, time);
   // In lockstep the replay must not depend on how fast this machine is.
   if (step.budget_ns == 0 || time.wall_ns <= step.budget_ns || clock_.lockstep()) return;
-  step.timing.over_budget.store(step.timing.over_budget.load(std::memory_order_relaxed) + 1,
-                                std::memory_order_relaxed);
+  count_one(step.timing.over_budget);
   observer_.over_budget(place, tick, time, step.budget_ns);
 }
 

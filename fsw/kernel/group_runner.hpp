@@ -18,7 +18,8 @@ namespace omma {
 /// What is known of one component's steps; read by any thread.
 struct ComponentTiming {
   DurationStatistics wall;
-  DurationStatistics cpu;
+  DurationStatistics cpu;                        ///< of the steps whose processor time is known
+  std::atomic<std::uint64_t> left_processor{0};  ///< steps that were pre-empted or waited
   std::atomic<std::uint64_t> over_budget{0};
 };
 
@@ -61,7 +62,14 @@ class GroupRunner {
     ComponentTiming timing;
   };
 
+  /// Where the processor time of a beat stands.
+  struct CpuMark {
+    bool known = false;
+    TimeNs cpu_ns = 0;
+  };
+
   void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
+  static void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
   void judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
   void miss(std::uint64_t beat, std::uint64_t count) noexcept;
 
@@ -76,6 +84,7 @@ class GroupRunner {
   std::vector<Crossing*> acquire_;  // crossings that lead in
   std::vector<std::unique_ptr<Step>> steps_;
   GroupTiming timing_;
+  bool disturbed_ = true;  // the last beat was broken: this one may ask the system for its processor time
 };
 
 }  // namespace omma

@@ -17,9 +17,15 @@ struct SchedulePlace {
 };
 
 struct StepTime {
+  static constexpr TimeNs kUnknown = -1;
+
   TimeNs start_ns = 0;  ///< on the stopwatch
   TimeNs wall_ns = 0;
-  TimeNs cpu_ns = 0;  ///< of this thread: less than the wall time by what pre-emption took
+  /// Processor time of this thread. The wall time when the step kept its processor; measured when it did not
+  /// and the beat before was broken as well; else unknown: asking costs a system call, which an undisturbed
+  /// group never makes.
+  TimeNs cpu_ns = kUnknown;
+  bool left_processor = false;  ///< the step was pre-empted, or waited for something
 };
 
 class ScheduleObserver {

@@ -1,12 +1,14 @@
 // Filling the numbers into an event's sentence.
 #include "fsw/services/event_text.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 namespace omma {
 namespace {
 
 std::string number(double value) {
+  if (std::isnan(value)) return "?";
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;

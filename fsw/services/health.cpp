@@ -29,6 +29,7 @@ StepTiming step_timing(const ScheduledComponent& scheduled, const ComponentTimin
           .p99_ns = wall.quantile_ns(0.99),
           .cpu_mean_ns = static_cast<TimeNs>(cpu.mean_ns()),
           .cpu_max_ns = cpu.max_ns,
+          .left_processor = timing.left_processor.load(std::memory_order_relaxed),
           .budget_ns = scheduled.budget.count(),
           .over_budget = timing.over_budget.load(std::memory_order_relaxed),
           .name = scheduled.component.name()};

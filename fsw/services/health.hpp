@@ -47,9 +47,10 @@ struct StepTiming {
   TimeNs mean_ns = 0;
   TimeNs max_ns = 0;
   TimeNs p99_ns = 0;       ///< within 19 %
-  TimeNs cpu_mean_ns = 0;  ///< processor time
+  TimeNs cpu_mean_ns = 0;  ///< processor time, of the steps where it is known
   TimeNs cpu_max_ns = 0;
-  TimeNs budget_ns = 0;  ///< 0: none
+  std::uint64_t left_processor = 0;  ///< steps that were pre-empted or waited
+  TimeNs budget_ns = 0;              ///< 0: none
   std::uint64_t over_budget = 0;
   std::string_view name;  ///< the component's own, valid as long as it is
 };

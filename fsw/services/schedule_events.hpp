@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "fsw/kernel/schedule_observer.hpp"
 #include "fsw/services/events.hpp"
@@ -33,7 +34,10 @@ class ScheduleEvents final : public ScheduleObserver {
   void over_budget(SchedulePlace place, const Tick& tick, const StepTime& time,
                    TimeNs budget_ns) noexcept override {
     events_.raise<kStepOverBudget>(tick, place.component, microseconds(time.wall_ns),
-                                   microseconds(time.cpu_ns), microseconds(budget_ns));
+                                   time.cpu_ns == StepTime::kUnknown
+                                       ? std::numeric_limits<double>::quiet_NaN()
+                                       : microseconds(time.cpu_ns),
+                                   microseconds(budget_ns));
   }
   void missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept override {
     events_.raise<kBeatsMissed>(first, group, count, first.number);

@@ -17,8 +17,11 @@ constexpr Bench kBenches[] = {
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"lens", omma::bench_lens, "pixel to bearing and back, each lens model: time per call"},
+    {"jitter", omma::bench_jitter, "lateness of steps against a bare clock_nanosleep loop in the same run"},
+    {"ports", omma::bench_ports, "moving a message within and between rate groups"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
+    {"steps", omma::bench_steps, "what the scheduler adds to an empty step"},
     {"target_identification", omma::bench_target_identification,
      "targets from an unlabelled cloud of dots: solved, wrong, left open, time"},
 };

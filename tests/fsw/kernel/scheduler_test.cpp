@@ -7,6 +7,8 @@
 #include <random>
 #include <thread>
 
+#include "fsw/kernel/processor_stay.hpp"
+#include "fsw/kernel/thread_cpu_time.hpp"
 #include "tests/fsw/kernel/test_components.hpp"
 
 namespace omma {
@@ -235,6 +237,42 @@ TEST(Scheduler, SaysSoWhenItMayNotRunInRealTime) {
   EXPECT_EQ(scheduler.refusals()[0], "rate group 'g' is not tied to core 1000: Invalid argument.");
   EXPECT_EQ(scheduler.group(0).timing().latency.snapshot().count + scheduler.group(0).timing().missed.load(),
             3U);
+}
+
+TEST(Scheduler, TellsAStepThatWaitedFromOneThatWorked) {
+  LockstepClock clock;
+  Scripted waiting("waiting", [](const Tick&) { std::this_thread::sleep_for(2ms); });
+  Scripted working("working", [](const Tick&) {
+    const TimeNs end = thread_cpu_time() + 500'000;
+    while (thread_cpu_time() < end) {
+    }
+  });
+  Scheduler scheduler({.base_period = 1ms, .groups = {{.name = "g", .components = {{waiting}, {working}}}}},
+                      clock);
+  scheduler.run(50);
+  const ComponentTiming& waited = scheduler.group(0).component_timing(0);
+  const ComponentTiming& worked = scheduler.group(0).component_timing(1);
+  EXPECT_EQ(waited.left_processor.load(), 50U);
+  EXPECT_GE(waited.wall.snapshot().mean_ns(), 2e6);
+  EXPECT_LT(waited.cpu.snapshot().total_ns, waited.wall.snapshot().total_ns);
+  EXPECT_LE(worked.cpu.snapshot().total_ns, worked.wall.snapshot().total_ns);
+  EXPECT_GE(worked.cpu.snapshot().mean_ns(), 5e5);
+}
+
+TEST(ProcessorStay, IsBrokenBySleepingAndNotByEveryShortStretch) {
+  ProcessorStay stay;
+  if (!stay.available()) GTEST_SKIP() << "no restartable sequences here";
+  for (int i = 0; i < 20; ++i) {
+    stay.begin();
+    std::this_thread::sleep_for(100us);
+    EXPECT_FALSE(stay.unbroken());
+  }
+  int unbroken = 0;
+  for (int i = 0; i < 1000; ++i) {
+    stay.begin();
+    unbroken += stay.unbroken() ? 1 : 0;
+  }
+  EXPECT_GT(unbroken, 0);
 }
 
 TEST(DurationStatistics, QuantilesAreWithinABucketOfTheTruth) {

@@ -61,21 +61,27 @@ int run_under_filter(bool guilty) {
   action.sa_flags = SA_SIGINFO;
   sigaction(SIGSYS, &action, nullptr);
   bool filtered = false;
-  constexpr std::uint64_t kLastTick = 400;
-  testing::Scripted seal("seal", [&](const Tick& tick) {
-    if (tick.number == 0) {
+  constexpr int kSteps = 300;
+  int step = 0;
+  Scheduler* running = nullptr;
+  testing::Scripted seal("seal", [&](const Tick&) {
+    ++step;
+    if (step == 1) {
       // The thread frees its own start-up storage when it ends; glibc maps its cache at the first use.
       void* volatile first = std::malloc(1);
       std::free(first);
       filtered = trap_system_calls();
     }
     if (guilty) syscall(SYS_getppid);
-    if (tick.number == 2) counting.store(true);
-    if (tick.number == kLastTick - 1) counting.store(false);  // the thread's end may call what it likes
+    if (step == 3) counting.store(true);
+    if (step == kSteps) {
+      counting.store(false);  // the thread's end may call what it likes
+      running->stop();
+    }
   });
   testing::Source source;
   testing::Sink sink;
-  sink.seen.reserve(kLastTick);
+  sink.seen.reserve(kSteps);
   sink.number.bind(source.number);
   MonotonicClock clock;
   Events events;
@@ -83,7 +89,8 @@ int run_under_filter(bool guilty) {
   Scheduler scheduler(
       {.base_period = 500us, .groups = {{.name = "g", .components = {{seal}, {source, 1ns}, {sink, 1ns}}}}},
       clock, observer);
-  scheduler.run(kLastTick);
+  running = &scheduler;
+  scheduler.run();
   if (!filtered) return 77;
   // A beat after a broken one may ask for its processor time, once at its start and once a broken step.
   std::uint64_t broken = 1;

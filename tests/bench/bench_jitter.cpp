@@ -58,16 +58,15 @@ std::vector<double> bare_loop(const Witness& scheduled, TimeNs period, std::size
   return late;
 }
 
-void compare(int rate_hz, int seconds, int busy_threads, int priority) {
-  const auto beats = static_cast<std::size_t>(rate_hz * seconds);
+/// One block of beats: both loops at once.
+struct Block {
+  double ours50 = 0, ours99 = 0, ours_max = 0;
+  double bare50 = 0, bare99 = 0, bare_max = 0;
+  std::uint64_t missed = 0;
+};
+
+Block run_block(int rate_hz, std::size_t beats, int priority) {
   const TimeNs period = kSecond / rate_hz;
-  std::atomic<bool> ending{false};
-  std::vector<std::thread> load;
-  for (int i = 0; i < busy_threads; ++i)
-    load.emplace_back([&ending] {
-      volatile double x = 1;
-      while (!ending.load(std::memory_order_relaxed)) x = std::sqrt(x + 1);
-    });
   Witness witness(beats);
   MonotonicClock clock;
   Scheduler scheduler({.base_period = std::chrono::nanoseconds(period),
@@ -77,17 +76,48 @@ void compare(int rate_hz, int seconds, int busy_threads, int priority) {
   std::thread other([&] { bare = bare_loop(witness, period, beats, priority); });
   scheduler.run(beats + 5);
   other.join();
+  return {.ours50 = quantile(witness.late, 0.5),
+          .ours99 = quantile(witness.late, 0.99),
+          .ours_max = quantile(witness.late, 1.0),
+          .bare50 = quantile(bare, 0.5),
+          .bare99 = quantile(bare, 0.99),
+          .bare_max = quantile(bare, 1.0),
+          .missed = scheduler.group(0).timing().missed.load()};
+}
+
+/// Median over the blocks of what `figure` gives for one.
+template <class Figure>
+double median(const std::vector<Block>& blocks, Figure&& figure) {
+  std::vector<double> values;
+  for (const Block& block : blocks) values.push_back(figure(block));
+  return quantile(values, 0.5);
+}
+
+void compare(int rate_hz, int seconds, int n_blocks, int busy_threads, int priority) {
+  std::atomic<bool> ending{false};
+  std::vector<std::thread> load;
+  for (int i = 0; i < busy_threads; ++i)
+    load.emplace_back([&ending] {
+      volatile double x = 1;
+      while (!ending.load(std::memory_order_relaxed)) x = std::sqrt(x + 1);
+    });
+  std::vector<Block> blocks;
+  for (int i = 0; i < n_blocks; ++i)
+    blocks.push_back(run_block(rate_hz, static_cast<std::size_t>(rate_hz * seconds / n_blocks), priority));
   ending.store(true);
   for (std::thread& thread : load) thread.join();
-
-  const double ours50 = quantile(witness.late, 0.5);
-  const double ours99 = quantile(witness.late, 0.99);
-  const double bare50 = quantile(bare, 0.5);
-  const double bare99 = quantile(bare, 0.99);
+  std::uint64_t missed = 0;
+  for (const Block& block : blocks) missed += block.missed;
   std::printf("%5d Hz  %-5s  %8.1f %8.1f %5.2f   %8.1f %8.1f %5.2f   %9.1f %9.1f   %llu\n", rate_hz,
-              busy_threads > 0 ? "busy" : "idle", ours50, bare50, ours50 / bare50, ours99, bare99,
-              ours99 / bare99, quantile(witness.late, 1.0), quantile(bare, 1.0),
-              static_cast<unsigned long long>(scheduler.group(0).timing().missed.load()));
+              busy_threads > 0 ? "busy" : "idle", median(blocks, [](const Block& b) { return b.ours50; }),
+              median(blocks, [](const Block& b) { return b.bare50; }),
+              median(blocks, [](const Block& b) { return b.ours50 / b.bare50; }),
+              median(blocks, [](const Block& b) { return b.ours99; }),
+              median(blocks, [](const Block& b) { return b.bare99; }),
+              median(blocks, [](const Block& b) { return b.ours99 / b.bare99; }),
+              median(blocks, [](const Block& b) { return b.ours_max; }),
+              median(blocks, [](const Block& b) { return b.bare_max; }),
+              static_cast<unsigned long long>(missed));
 }
 
 /// A step of tick 200 takes 2.5 ms at 1 kHz: where does the next one begin?
@@ -130,7 +160,8 @@ void stall(int priority) {
 }  // namespace
 
 int bench_jitter(int argc, char** argv) {
-  const int seconds = option(argc, argv, "--seconds", 5);
+  const int seconds = option(argc, argv, "--seconds", 11);
+  const int blocks = option(argc, argv, "--blocks", 11);
   const int priority = option(argc, argv, "--priority", 80);
   for (const std::string& refusal : make_thread_real_time("this thread", 0))
     std::printf("%s\n", refusal.c_str());
@@ -144,7 +175,7 @@ int bench_jitter(int argc, char** argv) {
   std::printf(
       "   rate  load    p50 ours     bare ratio   p99 ours     bare ratio    max ours      bare   missed\n");
   for (const int rate : {1000, 200})
-    for (const int busy : {0, 2}) compare(rate, seconds, busy, priority);
+    for (const int busy : {0, 2}) compare(rate, seconds, blocks, busy, priority);
   stall(priority);
   return 0;
 }

@@ -134,7 +134,7 @@ class FitsReader {
     auto* const pixels = reinterpret_cast<std::uint16_t*>(image.pixels.data());
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double value = std::isfinite(values[i]) ? values[i] : least;
-      pixels[i] = static_cast<std::uint16_t>(std::clamp((value - offset) * scale, 0.0, 65535.0) + 0.5);
+      pixels[i] = static_cast<std::uint16_t>(std::lround(std::clamp((value - offset) * scale, 0.0, 65535.0)));
     }
     if (type_ == SHORT_IMG && fits_as_it_is) image.white_level = 32767;
   }

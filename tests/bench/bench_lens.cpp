@@ -43,6 +43,7 @@ std::vector<Case> cases() {
 template <class Call>
 double nanoseconds(int batches, double& sum, Call&& call) {
   std::vector<double> samples;
+  samples.reserve(static_cast<std::size_t>(batches));
   for (int b = 0; b < batches; ++b) {
     samples.push_back(1000.0 / kCalls * microseconds([&] {
                         for (std::size_t i = 0; i < kCalls; ++i) sum += call(i);

@@ -25,6 +25,7 @@ using ::testing::HasSubstr;
 
 constexpr int kWidth = 37;
 constexpr int kHeight = 23;
+constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
 
 std::string temporary(const std::string& name) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
@@ -56,7 +57,8 @@ std::vector<std::byte> png_of(int color_type, int bit_depth, const std::vector<s
     spng_plte entries{};
     entries.n_entries = static_cast<std::uint32_t>(palette.size() / 3);
     for (std::uint32_t i = 0; i < entries.n_entries; ++i) {
-      entries.entries[i] = {palette[3 * i], palette[3 * i + 1], palette[3 * i + 2], 255};
+      entries.entries[i] = {palette[std::size_t{3} * i], palette[std::size_t{3} * i + 1],
+                            palette[std::size_t{3} * i + 2], 255};
     }
     spng_set_plte(context, &entries);
   }
@@ -101,7 +103,7 @@ std::vector<std::byte> jpeg_of(const Image& grey) {
 template <class Value>
 std::string fits_of(const std::string& name, int image_type, int value_type, const std::vector<Value>& values,
                     const char* order) {
-  const std::string path = temporary(name);
+  std::string path = temporary(name);
   std::remove(path.c_str());
   fitsfile* fits = nullptr;
   int status = 0;
@@ -123,7 +125,7 @@ std::vector<std::byte> bytes_of(const std::string& path) {
 }
 
 std::string written(const std::string& name, std::span<const std::byte> bytes) {
-  const std::string path = temporary(name);
+  std::string path = temporary(name);
   std::ofstream(path, std::ios::binary)
       .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   return path;
@@ -241,7 +243,7 @@ TEST(FitsFile, EightAndUnsignedSixteenBitsComeBackExactly) {
   EXPECT_EQ(read_image(fits_of("a.fits", BYTE_IMG, TBYTE, bytes, "TOP-DOWN")).pixels, eight.pixels);
 
   const Image sixteen = pattern<std::uint16_t>(300);
-  std::vector<std::uint16_t> words(kWidth * kHeight);
+  std::vector<std::uint16_t> words(kPixels);
   std::memcpy(words.data(), sixteen.pixels.data(), sixteen.pixels.size());
   const Image back = read_image(fits_of("b.fits", USHORT_IMG, TUSHORT, words, "TOP-DOWN"));
   EXPECT_EQ(back.format, PixelFormat::kGrey16);
@@ -250,7 +252,7 @@ TEST(FitsFile, EightAndUnsignedSixteenBitsComeBackExactly) {
 }
 
 TEST(FitsFile, RowsStandUprightWithoutRowOrder) {
-  std::vector<std::uint16_t> words(kWidth * kHeight, 7);
+  std::vector<std::uint16_t> words(kPixels, 7);
   words[0] = 1000;  // FITS: the first pixel is the lower left
   const Image image = read_image(fits_of("a.fits", USHORT_IMG, TUSHORT, words, nullptr));
   EXPECT_EQ(image.view().row<std::uint16_t>(kHeight - 1)[0], 1000);
@@ -258,7 +260,7 @@ TEST(FitsFile, RowsStandUprightWithoutRowOrder) {
 }
 
 TEST(FitsFile, FractionsFillSixteenBitsAndBlanksBecomeTheLowest) {
-  std::vector<float> values(kWidth * kHeight, 0.5F);
+  std::vector<float> values(kPixels, 0.5F);
   values[0] = 0.0F;
   values[1] = 1.0F;
   values[2] = std::numeric_limits<float>::quiet_NaN();
@@ -271,7 +273,7 @@ TEST(FitsFile, FractionsFillSixteenBitsAndBlanksBecomeTheLowest) {
 }
 
 TEST(FitsFile, GreyLevelsInWiderTypesKeepTheirUnits) {
-  std::vector<int> values(kWidth * kHeight, 1234);
+  std::vector<int> values(kPixels, 1234);
   values[5] = 60000;
   const Image image = read_image(fits_of("a.fits", LONG_IMG, TINT, values, "TOP-DOWN"));
   EXPECT_EQ(image.view().row<std::uint16_t>(0)[0], 1234);
@@ -310,10 +312,10 @@ TEST(DamagedImage, JpegIsRefused) {
 }
 
 TEST(DamagedImage, FitsIsRefused) {
-  const std::vector<std::uint16_t> words(kWidth * kHeight, 300);
+  const std::vector<std::uint16_t> words(kPixels, 300);
   const auto whole = bytes_of(fits_of("whole.fits", USHORT_IMG, TUSHORT, words, nullptr));
   // The last block is filled up with zeros behind the pixels.
-  expect_refused_when_cut(whole, "cut.fits", 2880 - (2 * kWidth * kHeight) % 2880);
+  expect_refused_when_cut(whole, "cut.fits", 2880 - (2 * kPixels) % 2880);
 }
 
 TEST(ImageFile, WhatIsNoImageIsRefusedInOneSentence) {

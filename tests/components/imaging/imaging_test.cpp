@@ -1,0 +1,185 @@
+// The imaging component: pictures in chunks over many frame sets, without a single allocation.
+#include "components/imaging/imaging.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "fsw/kernel/memory_guard.hpp"
+#include "fsw/kernel/real_time_scope.hpp"
+#include "tests/components/imaging/painted_sky.hpp"
+
+namespace omma {
+namespace {
+
+double smooth_sky(const Eigen::Vector3d& d) {
+  return 0.15 + 0.05 * d.x() - 0.03 * d.z();
+}
+
+/// The component with the outputs it reads, as a topology would bind them.
+struct Bench {
+  explicit Bench(const ImagingParameters& parameters)
+      : rig(testing::tetrahedral_rig()), imaging(parameters, rig) {
+    imaging.frames.bind(frames);
+    imaging.dots.bind(dots);
+    imaging.attitude.bind(attitude);
+    dots->cameras.resize(rig.cameras.size());
+    for (DotList& list : dots->cameras) list.background = 0;
+  }
+
+  void take(std::uint64_t number, const Eigen::Quaterniond& rig_from_j2000) {
+    images = testing::paint(rig, rig_from_j2000, smooth_sky);
+    frames->number = number;
+    frames->cameras.clear();
+    for (const ImageView& view : images.views)
+      frames->cameras.push_back({view, number, 0, FrameStatus::kFresh});
+    attitude->valid = true;
+    attitude->frame = number;
+    attitude->time_ns = static_cast<TimeNs>(number) * 100000000;
+    attitude->solution.rig_from_j2000 = rig_from_j2000;
+  }
+
+  Rig rig;
+  Out<Frames> frames;
+  Out<DotLists> dots;
+  Out<AttitudeEstimate> attitude;
+  testing::PaintedImages images;
+  Imaging imaging;
+};
+
+ImagingParameters small_panorama() {
+  ImagingParameters parameters;
+  parameters.panorama.width = 512;
+  parameters.footprint = Footprint::kMean;
+  return parameters;
+}
+
+TEST(Imaging, ChunksTakenWhileTheRigTurnsMakeOnePictureOfTheSky) {
+  Bench bench(small_panorama());
+  std::vector<std::uint8_t> picture(512 * 256);
+  int rows = 0;
+  for (std::uint64_t number = 1; rows < 256; ++number) {
+    ASSERT_LT(number, 100U);
+    bench.take(number, rotation_exp(Eigen::Vector3d(0.02 * static_cast<double>(number), 0.3, 0.1)));
+    bench.imaging.step({});
+    const ImageChunk& chunk = *bench.imaging.chunk;
+    ASSERT_TRUE(chunk.valid);
+    EXPECT_EQ(chunk.frame, number);
+    EXPECT_EQ(chunk.image, 1U);
+    EXPECT_EQ(chunk.first_row, rows);
+    EXPECT_EQ(chunk.height, 256);
+    std::memcpy(picture.data() + rows * 512, chunk.pixels.data(), std::size_t{chunk.rows} * chunk.width);
+    rows += chunk.rows;
+  }
+  EXPECT_EQ(rows, 256);
+  for (int v = 0; v < 256; ++v) {
+    for (int u = 0; u < 512; ++u) {
+      const int grey = picture[v * 512 + u];
+      if (grey == 0) continue;
+      const double truth = smooth_sky(panorama_direction(Eigen::Vector2d(u, v), 512));
+      ASSERT_NEAR(grey, companded(truth, PanoramaSettings{}.white), 2) << u << ", " << v;
+    }
+  }
+  bench.take(200, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  EXPECT_EQ(bench.imaging.chunk->image, 2U);
+  EXPECT_EQ(bench.imaging.chunk->first_row, 0);
+}
+
+TEST(Imaging, RowsWaitWhileThereIsNoAttitude) {
+  Bench bench(small_panorama());
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  const int next = bench.imaging.chunk->rows;
+  bench.take(2, Eigen::Quaterniond::Identity());
+  bench.attitude->valid = false;
+  bench.imaging.step({});
+  EXPECT_FALSE(bench.imaging.chunk->valid);
+  EXPECT_EQ(bench.imaging.chunk->rows, 0);
+  EXPECT_EQ(bench.imaging.chunk->frame, 2U) << "an old chunk is not taken for a new one";
+  bench.take(3, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  EXPECT_TRUE(bench.imaging.chunk->valid);
+  EXPECT_EQ(bench.imaging.chunk->first_row, next);
+}
+
+TEST(Imaging, APanoramaFixedToTheRigNeedsNoAttitude) {
+  ImagingParameters parameters = small_panorama();
+  parameters.kind = ImageKind::kPanoramaRig;
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.attitude->valid = false;
+  bench.imaging.step({});
+  EXPECT_TRUE(bench.imaging.chunk->valid);
+}
+
+TEST(Imaging, StaleFramesAreNotShown) {
+  Bench bench(small_panorama());
+  bench.take(1, Eigen::Quaterniond::Identity());
+  for (Frame& frame : bench.frames->cameras) frame.status = FrameStatus::kStuck;
+  bench.imaging.step({});
+  EXPECT_FALSE(bench.imaging.chunk->valid);
+}
+
+TEST(Imaging, PausesBetweenPicturesForItsPeriod) {
+  ImagingParameters parameters = small_panorama();
+  parameters.period = 40;
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  int first_of_second = 0;
+  for (int step = 0; step < 60 && first_of_second == 0; ++step) {
+    bench.imaging.step({});
+    if (bench.imaging.chunk->valid && bench.imaging.chunk->image == 2) first_of_second = step;
+  }
+  EXPECT_EQ(first_of_second, 40);
+}
+
+TEST(Imaging, SubtractsEachCamerasOwnBackground) {
+  ImagingParameters parameters = small_panorama();
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  for (std::size_t camera = 0; camera < 3; ++camera) {
+    std::fill(bench.images.pixels[camera].begin(), bench.images.pixels[camera].end(), 300 + 100 * camera);
+    bench.dots->cameras[camera].background = static_cast<float>(300 + 100 * camera);
+  }
+  bench.imaging.step({});
+  const ImageChunk& chunk = *bench.imaging.chunk;
+  ASSERT_TRUE(chunk.valid);
+  for (int i = 0; i < chunk.rows * chunk.width; ++i) ASSERT_LE(chunk.pixels[i], 1);
+}
+
+TEST(Imaging, AViewIsSentInChunksToo) {
+  ImagingParameters parameters;
+  parameters.kind = ImageKind::kView;
+  parameters.view = {100, 100, 0.8, 0.5};
+  parameters.pan = 1.0;
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  EXPECT_EQ(bench.imaging.chunk->rows, 81) << "as many rows of 100 as fit 8192 bytes";
+  bench.imaging.step({});
+  EXPECT_EQ(bench.imaging.chunk->first_row, 81);
+  EXPECT_EQ(bench.imaging.chunk->rows, 19);
+}
+
+TEST(Imaging, StepsAllocateNothing) {
+  if (!memory_guard::installed()) GTEST_SKIP() << "sanitizers bring a malloc of their own";
+  Bench bench(small_panorama());
+  bench.take(1, rotation_exp(Eigen::Vector3d(0.2, 0.3, 0.1)));
+  const std::uint64_t before = memory_guard::violations().total();
+  for (int step = 0; step < 40; ++step) {  // more than one picture
+    const RealTimeScope scope;
+    bench.imaging.step({});
+  }
+  EXPECT_EQ(memory_guard::violations().total(), before);
+  EXPECT_EQ(bench.imaging.chunk->image, 3U);
+}
+
+TEST(Imaging, RefusesARowLongerThanAChunk) {
+  ImagingParameters parameters;
+  parameters.panorama.width = 16384;
+  EXPECT_THROW(Imaging(parameters, testing::tetrahedral_rig()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace omma

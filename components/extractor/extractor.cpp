@@ -1,0 +1,42 @@
+#include "components/extractor/extractor.hpp"
+
+namespace omma {
+
+Extractor::Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool) : pool_(pool) {
+  for (const ExtractorCamera& camera : cameras) {
+    parameters_.push_back(camera.parameters);
+    extractors_.push_back(std::make_unique<DotExtractor>(camera.width, camera.height));
+  }
+  dots->cameras.resize(cameras.size());
+}
+
+void Extractor::visit_ports(PortVisitor& visitor) const {
+  visitor.input("frames", frames);
+  visitor.output("dots", dots);
+}
+
+void Extractor::step(const Tick& /*tick*/) noexcept {
+  dots->frame = frames->number;
+  dots->time_ns = frames->trigger_time_ns;
+  pool_.run(static_cast<int>(extractors_.size()),
+            [this](int camera) { extract_camera(static_cast<std::size_t>(camera)); });
+  // The frame set's time is that of its fresh frames; all cameras expose on one trigger.
+  for (const DotList& list : dots->cameras) {
+    if (list.status == FrameStatus::kFresh) dots->time_ns = list.time_ns;
+  }
+}
+
+void Extractor::extract_camera(std::size_t camera) noexcept {
+  const Frame& frame = frames->cameras[camera];
+  DotList& list = dots->cameras[camera];
+  list.frame = frames->number;
+  list.time_ns = frame.exposure_midpoint_ns;
+  list.status = frame.status;
+  list.dots.clear();
+  list.dropped = 0;
+  // Only a frame of this trigger may be used: an old one shows where the sky was.
+  if (frame.status != FrameStatus::kFresh) return;
+  extractors_[camera]->extract(frame.image, parameters_[camera], list);
+}
+
+}  // namespace omma

@@ -1,0 +1,46 @@
+// Extractor: the frames of all cameras → their dots. One job a camera on the worker pool; the result does not depend
+// on how many workers there are.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "components/camera/frames.hpp"
+#include "components/extractor/dot_extractor.hpp"
+#include "components/extractor/dot_lists.hpp"
+#include "fsw/kernel/component.hpp"
+#include "fsw/kernel/port.hpp"
+#include "fsw/kernel/worker_pool.hpp"
+
+namespace omma {
+
+/// One camera's image size and what is looked for in it.
+struct ExtractorCamera {
+  int width = 0;   ///< [px]
+  int height = 0;  ///< [px]
+  ExtractorParameters parameters;
+};
+
+class Extractor final : public Component {
+ public:
+  /// @param cameras  in the order of the rig
+  /// @param pool     outlives this
+  Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool);
+
+  In<Frames> frames;
+  Out<DotLists> dots;
+
+  std::string_view name() const override { return "extractor"; }
+  void visit_ports(PortVisitor& visitor) const override;
+  void step(const Tick& tick) noexcept override;
+
+ private:
+  void extract_camera(std::size_t camera) noexcept;
+
+  WorkerPool& pool_;
+  std::vector<ExtractorParameters> parameters_;
+  std::vector<std::unique_ptr<DotExtractor>> extractors_;
+};
+
+}  // namespace omma

@@ -5,6 +5,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/command.hpp"
+#include "ground/simulate/simulate.hpp"
 #include "ground/solve/solve.hpp"
 
 int main(int argc, char** argv) {
@@ -12,6 +13,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   omma::ground::CommandContext context;
   omma::ground::add_solve(app, context);
+  omma::ground::add_simulate(app, context);
+  omma::ground::add_ideal_lens(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,35 @@
+// The sky in one camera: stars and Moon as points of light.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "components/catalogue/star.hpp"
+#include "sim/camera_view.hpp"
+#include "sim/card_view.hpp"
+#include "sim/disc_quadrature.hpp"
+#include "sim/scenario.hpp"
+#include "sim/spot.hpp"
+
+namespace omma::sim {
+
+/// One camera's turn to the sky at the exposure midpoint and at the instants that are drawn.
+struct SkyView {
+  Eigen::Matrix3d camera_from_j2000;   ///< at the midpoint
+  std::vector<Eigen::Matrix3d> drawn;  ///< camera_from_j2000 at each drawn instant, of equal weight
+};
+
+/// Appends the stars that no card hides and that are not behind the Moon.
+void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
+               const std::optional<Moon>& moon, std::span<const CardView> cards, SpotList& list);
+
+/// Appends the Moon's disc, unless a card hides its centre.
+void add_moon(const CameraView& camera, const SkyView& view, const Moon& moon,
+              std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list);
+
+/// Adds the light that the lens scatters about a bright spot: share `glare` of its flux, falling as
+/// r₀ / (2π (r² + r₀²)^{3/2}), which integrates to one over the plane; outside the field nothing is added.
+void add_glare(const CameraView& camera, const Spot& spot, const SpotList& list,
+               std::vector<float>& electrons);
+
+}  // namespace omma::sim

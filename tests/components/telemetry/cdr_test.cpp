@@ -13,6 +13,10 @@ namespace {
 static_assert(omma_MAX_CAMERAS == limits::kCameras);
 static_assert(omma_MAX_DOTS == limits::kDotsPerCamera);
 static_assert(omma_MAX_NAME == limits::kNameLength);
+static_assert(omma_MAX_COMPONENTS == limits::kComponents);
+static_assert(omma_MAX_GROUPS == limits::kRateGroups);
+static_assert(omma_MAX_EVENT_VALUES == limits::kEventValues);
+static_assert(omma_MAX_IMAGE_BYTES == limits::kImageChunkBytes);
 
 omma_CameraDots three_dots(std::vector<omma_Dot>& dots) {
   dots.assign(3, omma_Dot{});

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "hal/recorded/recorded_camera.hpp"
-
 namespace omma {
 namespace {
 
@@ -18,8 +16,9 @@ StarCatalogue star_catalogue(const Mission& mission) {
   return {observer, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
 }
 
-std::vector<std::unique_ptr<CameraDriver>> camera_drivers(const Mission& mission, const RunOptions& options) {
-  std::vector<std::unique_ptr<CameraDriver>> drivers;
+std::vector<std::unique_ptr<RecordedCamera>> camera_drivers(const Mission& mission,
+                                                            const RunOptions& options) {
+  std::vector<std::unique_ptr<RecordedCamera>> drivers;
   for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
     const RigCamera& camera = mission.rig.cameras[c];
     const int bits = mission.cameras[c].bits;
@@ -35,10 +34,14 @@ std::vector<std::unique_ptr<CameraDriver>> camera_drivers(const Mission& mission
   return drivers;
 }
 
-std::vector<CameraDriver*> pointers(const std::vector<std::unique_ptr<CameraDriver>>& drivers) {
+std::vector<CameraDriver*> pointers(const std::vector<std::unique_ptr<RecordedCamera>>& drivers) {
   std::vector<CameraDriver*> result;
   for (const auto& driver : drivers) result.push_back(driver.get());
   return result;
+}
+
+std::uint32_t beats_per_second(double rate_hz) {
+  return static_cast<std::uint32_t>(std::max(1LL, std::llround(rate_hz)));
 }
 
 std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
@@ -48,6 +51,13 @@ std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
     cameras.push_back({lens.width(), lens.height(), mission.cameras[c].extractor});
   }
   return cameras;
+}
+
+ImagingParameters imaging_parameters(const Mission& mission) {
+  ImagingParameters parameters;
+  parameters.panorama.width = mission.panorama_width;
+  parameters.period = mission.panorama_period;
+  return parameters;
 }
 
 }  // namespace
@@ -62,7 +72,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
       attitude(mission_.attitude),
-      pose(mission_.pose) {
+      pose(mission_.pose),
+      imaging(imaging_parameters(mission_), mission_.rig),
+      health(events) {
   connect();
 }
 
@@ -74,6 +86,15 @@ void Topology::connect() {
   tracker.poses.bind(pose.estimates);
   attitude.pairings.bind(tracker.pairings);
   pose.pairings.bind(tracker.pairings);
+  imaging.frames.bind(cameras.frames);
+  imaging.dots.bind(extractor.dots);
+  imaging.attitude.bind(attitude.estimate);
+}
+
+std::uint64_t Topology::frame_sets() const {
+  std::uint64_t last = 0;
+  for (const auto& driver : drivers_) last = std::max(last, driver->last_number());
+  return last + 1;
 }
 
 RateGroupTable Topology::table() {
@@ -87,7 +108,12 @@ RateGroupTable Topology::table() {
                                      {extractor, microseconds(10000)},
                                      {tracker, microseconds(15000)},
                                      {attitude, microseconds(2000)},
-                                     {pose, microseconds(2000)}}}}};
+                                     {pose, microseconds(2000)},
+                                     {imaging, microseconds(10000)}}},
+                     {.name = "health",
+                      .divisor = beats_per_second(mission_.frame_rate_hz),
+                      .priority = 10,
+                      .components = {{health, microseconds(1000)}}}}};
 }
 
 }  // namespace omma

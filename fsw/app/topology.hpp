@@ -1,19 +1,26 @@
 // Topology: the one file where everything is wired. Every component, every connection, every rate.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "components/attitude/attitude.hpp"
 #include "components/camera/cameras.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/extractor.hpp"
+#include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
 #include "components/tracker/tracker.hpp"
 #include "fsw/app/mission.hpp"
+#include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/worker_pool.hpp"
+#include "fsw/services/events.hpp"
+#include "fsw/services/health.hpp"
+#include "hal/recorded/recorded_camera.hpp"
 
 namespace omma {
 
@@ -23,7 +30,8 @@ struct RunOptions {
   int workers = 1;       ///< threads that share the extraction, the caller included
 };
 
-/// All components of the flight program, wired. Made once, before time starts; nothing in it moves afterwards.
+/// All components of the flight program, wired. Made once, before time starts; nothing in it moves
+/// afterwards.
 class Topology {
  public:
   /// @throws InputError where a file the mission names is not usable
@@ -32,14 +40,18 @@ class Topology {
   Topology& operator=(const Topology&) = delete;
 
   RateGroupTable table();
+  /// Frame sets until every recording has been played to its end.
+  std::uint64_t frame_sets() const;
 
  private:
   const Mission mission_;
   WorkerPool pool_;
   StarCatalogue catalogue_;
-  std::vector<std::unique_ptr<CameraDriver>> drivers_;
+  std::vector<std::unique_ptr<RecordedCamera>> drivers_;
 
  public:
+  Events events;
+
   // In the order of the data.
   SyncTrigger sync_trigger;
   Cameras cameras;
@@ -47,6 +59,8 @@ class Topology {
   Tracker tracker;
   Attitude attitude;
   RelativePose pose;
+  Imaging imaging;
+  Health health;
 
  private:
   void connect();

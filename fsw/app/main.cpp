@@ -1,0 +1,87 @@
+// omma-fsw: the flight program. Reads its mission, wires the topology, starts time, and says at the end how
+// it went.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "fsw/app/mission.hpp"
+#include "fsw/app/run_summary.hpp"
+#include "fsw/app/topology.hpp"
+#include "fsw/kernel/clock.hpp"
+#include "fsw/kernel/graph.hpp"
+#include "fsw/kernel/scheduler.hpp"
+#include "fsw/services/schedule_events.hpp"
+
+namespace {
+
+struct Arguments {
+  std::string mission;
+  std::string frames;
+  std::uint64_t frame_sets = 0;
+  int workers = 1;
+  bool real_time = false;
+  bool graph = false;
+};
+
+omma::Scheduler* running = nullptr;
+
+extern "C" void stop_running(int /*signal*/) {
+  if (running != nullptr) running->stop();
+}
+
+void say(const omma::Refusals& refusals) {
+  for (const std::string& refusal : refusals) std::fprintf(stderr, "omma-fsw: %s\n", refusal.c_str());
+}
+
+int fly(const Arguments& arguments) {
+  omma::Mission mission = omma::read_mission(arguments.mission);
+  if (!arguments.frames.empty()) mission.recording = arguments.frames;
+  omma::Topology topology(mission, {.lockstep = !arguments.real_time, .workers = arguments.workers});
+  const omma::RateGroupTable table = topology.table();
+  if (arguments.graph) return std::puts(omma::wiring_graph(table).c_str()) < 0 ? 2 : 0;
+
+  omma::LockstepClock lockstep;
+  omma::MonotonicClock monotonic;
+  omma::Clock& clock = arguments.real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
+  omma::ScheduleEvents observer(topology.events);
+  omma::Scheduler scheduler(table, clock, observer);
+  topology.health.observe(scheduler);
+  if (arguments.real_time) say(omma::lock_process_memory());
+
+  running = &scheduler;
+  std::signal(SIGINT, stop_running);
+  std::signal(SIGTERM, stop_running);
+  scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
+  running = nullptr;
+
+  say(scheduler.refusals());
+  std::fputs(omma::run_summary(scheduler).c_str(), stdout);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "Omma flight software: attitude, relative pose and sky pictures from the cameras of a mission."};
+  Arguments arguments;
+  app.add_option("mission", arguments.mission, "mission file (TOML)")->required();
+  app.add_option("--frames", arguments.frames,
+                 "folder of recorded frames, <camera>/<camera>_<number>.png; default: the mission's");
+  app.add_option("--frame-sets", arguments.frame_sets, "stop after so many; default: when the frames end");
+  app.add_option("--workers", arguments.workers, "threads that share the extraction")
+      ->check(CLI::Range(1, 16));
+  app.add_flag("--real-time", arguments.real_time,
+               "keep the mission's frame rate; default: as fast as possible, the same every time");
+  app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return fly(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "omma-fsw: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,5 +1,5 @@
-// Extractor: the frames of all cameras → their dots. One job a camera on the worker pool; the result does not depend
-// on how many workers there are.
+// Extractor: the frames of all cameras → their dots. One job a camera on the worker pool; the result does not
+// depend on how many workers there are.
 #pragma once
 
 #include <memory>

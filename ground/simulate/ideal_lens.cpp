@@ -1,3 +1,4 @@
+// `omma ideal-lens`: writes the lens file of an ideal equidistant fisheye of a given size and focal length.
 #include <cstdio>
 #include <fstream>
 #include <memory>

@@ -33,30 +33,30 @@ class SkyGrid {
   /// Calls `visit(i)` for all directions within `radius` [rad] of `direction` and some a little farther.
   template <class Visit>
   void near(const Eigen::Vector3d& direction, double radius, Visit&& visit) const noexcept {
-    const int x0 = slot(direction.x() - radius);
-    const int x1 = slot(direction.x() + radius);
-    const int y0 = slot(direction.y() - radius);
-    const int y1 = slot(direction.y() + radius);
-    const int z0 = slot(direction.z() - radius);
-    const int z1 = slot(direction.z() + radius);
-    for (int x = x0; x <= x1; ++x) {
-      for (int y = y0; y <= y1; ++y) {
-        const std::size_t column = static_cast<std::size_t>((x * kSide + y) * kSide);
-        const std::size_t end = start_[column + static_cast<std::size_t>(z1) + 1];
-        for (std::size_t k = start_[column + static_cast<std::size_t>(z0)]; k < end; ++k) visit(order_[k]);
+    const std::size_t x0 = slot(direction.x() - radius);
+    const std::size_t x1 = slot(direction.x() + radius);
+    const std::size_t y0 = slot(direction.y() - radius);
+    const std::size_t y1 = slot(direction.y() + radius);
+    const std::size_t z0 = slot(direction.z() - radius);
+    const std::size_t z1 = slot(direction.z() + radius);
+    for (std::size_t x = x0; x <= x1; ++x) {
+      for (std::size_t y = y0; y <= y1; ++y) {
+        const std::size_t column = (x * kSide + y) * kSide;
+        for (std::size_t k = start_[column + z0]; k < start_[column + z1 + 1]; ++k) visit(order_[k]);
       }
     }
   }
 
  private:
-  static constexpr int kSide = 32;  // cubes along each edge of [-1, 1]³: 3.6° at the sphere
-  static constexpr std::size_t kCubes = std::size_t{kSide} * kSide * kSide;
+  static constexpr std::size_t kSide = 32;  // cubes along each edge of [-1, 1]³: 3.6° at the sphere
+  static constexpr std::size_t kCubes = kSide * kSide * kSide;
 
-  static int slot(double coordinate) noexcept {
-    return std::clamp(static_cast<int>((coordinate + 1) * (kSide / 2)), 0, kSide - 1);
+  static std::size_t slot(double coordinate) noexcept {
+    constexpr double kScale = 0.5 * kSide;
+    return static_cast<std::size_t>(std::clamp((coordinate + 1) * kScale, 0.0, kSide - 1.0));
   }
   static std::size_t cube(const Eigen::Vector3d& v) noexcept {
-    return static_cast<std::size_t>((slot(v.x()) * kSide + slot(v.y())) * kSide + slot(v.z()));
+    return (slot(v.x()) * kSide + slot(v.y())) * kSide + slot(v.z());
   }
 
   std::array<std::uint16_t, kCubes + 1> start_{};

@@ -136,9 +136,10 @@ SkyProblem random_sky(const Rig& rig, std::span<const SkyStar> stars, const SkyP
       maker.add(c, problem.truth * star.direction, star.magnitude, star.hr);
     }
     const std::size_t seen = problem.dots.size() - before;
-    const auto wanted =
-        static_cast<std::size_t>(double(seen) * options.false_fraction / (1 - options.false_fraction) + 0.5);
+    const auto wanted = static_cast<std::size_t>(
+        std::lround(double(seen) * options.false_fraction / (1 - options.false_fraction)));
     for (std::size_t n = 0; n < wanted; ++n) maker.add_false(c, stars[random() % bright].magnitude);
+    for (int n = 0; n < options.bright_false; ++n) maker.add_false(c, -5);
   }
   for (int n = 0; n < options.false_on_sphere; ++n) {
     const Eigen::Vector3d direction = random_direction(random);

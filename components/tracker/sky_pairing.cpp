@@ -1,5 +1,6 @@
 #include "components/tracker/sky_pairing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace omma {
@@ -39,21 +40,39 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
                       std::span<const HiddenCone> hidden,
                       StaticVector<Pairing, limits::kStarPairs>& out) noexcept {
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
+    found_[c].clear();
     if (dots.list(c).dots.empty()) continue;
     predict(rig.cameras[c], c, stars, prediction, magnitude_limit, hidden);
     for (const Assignment& a : assigner_.assign(points_, dots.list(c), dots.grid(c), gate, dots.claimed(c))) {
-      const RigDot* ray = dots.ray(c, a.dot);
-      if (ray == nullptr) continue;
-      const SkyStar& star = stars[points_[a.prediction].entry];
-      Pairing pairing;
-      pairing.sight = SeenDots::sight(*ray, star.direction);
-      pairing.camera = static_cast<std::uint8_t>(c);
-      pairing.dot = a.dot;
-      pairing.entry = star.hr;
-      if (!out.push_back(pairing)) return;
-      dots.claimed(c)[a.dot] = 1;
+      if (dots.ray(c, a.dot) != nullptr) found_[c].push_back({points_[a.prediction].entry, a.dot});
     }
   }
+  const std::size_t share = share_of_each(dots.cameras(), out.capacity() - out.size());
+  for (std::size_t c = 0; c < dots.cameras(); ++c) {
+    const std::size_t count = std::min(share, found_[c].size());
+    for (std::size_t i = 0; i < count; ++i) {
+      const Found& found = found_[c][i];
+      Pairing pairing;
+      pairing.sight = SeenDots::sight(*dots.ray(c, found.dot), stars[found.star].direction);
+      pairing.camera = static_cast<std::uint8_t>(c);
+      pairing.dot = found.dot;
+      pairing.entry = stars[found.star].hr;
+      if (!out.push_back(pairing)) return;
+      dots.claimed(c)[found.dot] = 1;
+    }
+  }
+}
+
+// The largest number of pairs of any camera with which all fit into `room`.
+std::size_t SkyPairing::share_of_each(std::size_t cameras, std::size_t room) const noexcept {
+  std::size_t share = 0;
+  for (std::size_t above = limits::kDotsPerCamera + 1; above - share > 1;) {
+    const std::size_t middle = (share + above) / 2;
+    std::size_t sum = 0;
+    for (std::size_t c = 0; c < cameras; ++c) sum += std::min(middle, found_[c].size());
+    (sum <= room ? share : above) = middle;
+  }
+  return share;
 }
 
 }  // namespace omma

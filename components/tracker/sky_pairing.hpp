@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <span>
 
 #include "components/catalogue/star.hpp"
@@ -28,8 +29,9 @@ struct HiddenCone {
 
 class SkyPairing {
  public:
-  /// Appends the pairs of all cameras to `out` and marks their dots as claimed. Stars brighter first, at most
-  /// Assigner::kPredictions of them in an image.
+  /// Appends the pairs of all cameras to `out`, camera by camera, and marks their dots as claimed. Of each
+  /// image the brightest Assigner::kPredictions stars are looked for. Where the cameras have more pairs than
+  /// `out` has room for, each gets the same share of it, its brightest stars.
   /// @param stars  apparent places, brightest first; those fainter than `magnitude_limit` are not used
   void pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> stars,
             const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
@@ -39,8 +41,15 @@ class SkyPairing {
   void predict(const RigCamera& camera, std::size_t camera_index, std::span<const SkyStar> stars,
                const PredictedAttitude& prediction, float magnitude_limit,
                std::span<const HiddenCone> hidden) noexcept;
+  std::size_t share_of_each(std::size_t cameras, std::size_t room) const noexcept;
+
+  struct Found {
+    std::uint16_t star;  // index in the catalogue, brightest first
+    std::uint16_t dot;
+  };
 
   StaticVector<PredictedPoint, Assigner::kPredictions> points_;
+  std::array<StaticVector<Found, limits::kDotsPerCamera>, limits::kCameras> found_;
   Assigner assigner_;
 };
 

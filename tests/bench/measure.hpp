@@ -40,6 +40,13 @@ inline double quantile(std::vector<double> samples, double q) {
   return samples[static_cast<std::size_t>(k)];
 }
 
+/// Text after `--name` among the arguments, or `fallback`.
+inline const char* text_option(int argc, char** argv, const char* name, const char* fallback) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], name) == 0) return argv[i + 1];
+  return fallback;
+}
+
 /// Value of `--name N` among the arguments, or `fallback`.
 inline int option(int argc, char** argv, const char* name, int fallback) {
   for (int i = 1; i + 1 < argc; ++i)

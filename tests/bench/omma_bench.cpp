@@ -18,6 +18,8 @@ constexpr Bench kBenches[] = {
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"lens", omma::bench_lens, "pixel to bearing and back, each lens model: time per call"},
     {"jitter", omma::bench_jitter, "lateness of steps against a bare clock_nanosleep loop in the same run"},
+    {"photographs", omma::bench_photographs,
+     "omma solve on photographs others took and solved: solved, wrong, error, stars, time"},
     {"ports", omma::bench_ports, "moving a message within and between rate groups"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},

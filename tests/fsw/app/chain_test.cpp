@@ -1,0 +1,147 @@
+// The whole flight program on simulated frames: images in, attitude and relative pose out, judged against the
+// truth the images were drawn from.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include "fsw/app/mission.hpp"
+#include "fsw/app/topology.hpp"
+#include "fsw/kernel/clock.hpp"
+#include "fsw/kernel/memory_guard.hpp"
+#include "fsw/kernel/scheduler.hpp"
+#include "ground/simulate/render_recording.hpp"
+#include "sim/scenario_file.hpp"
+
+namespace omma {
+namespace {
+
+constexpr int kFrameSets = 20;
+constexpr double kArcsec = std::numbers::pi / (180.0 * 3600.0);
+
+std::filesystem::path config(const std::string& file) {
+  return std::filesystem::path(OMMA_SOURCE_DIR) / "config" / file;
+}
+
+struct FrameSetResult {
+  AttitudeEstimate attitude;
+  PoseEstimates poses;
+};
+
+/// Keeps what each frame set gave; its memory is there before time starts.
+class Keeper final : public ScheduleObserver {
+ public:
+  Keeper(const Topology& topology, std::size_t frame_sets) : topology_(topology) {
+    results.reserve(frame_sets);
+  }
+  void beat_finished(std::uint16_t group, const Tick&) noexcept override {
+    if (group == 0) results.push_back({*topology_.attitude.estimate, *topology_.pose.estimates});
+  }
+  std::vector<FrameSetResult> results;
+
+ private:
+  const Topology& topology_;
+};
+
+class Chain : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    scenario() = sim::read_scenario_file(config("demo_scenario.toml"));
+    scenario().frames = kFrameSets;
+    ground::render_recording(scenario(), frames(), 2);
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(frames()); }
+
+  static sim::Scenario& scenario() {
+    static sim::Scenario scenario;
+    return scenario;
+  }
+  static std::filesystem::path frames() {
+    return std::filesystem::path(OMMA_BINARY_DIR) / "tests" / "chain_test_frames";
+  }
+  static std::vector<FrameSetResult> fly(int workers, std::uint64_t frame_sets = kFrameSets) {
+    Mission mission = read_mission(config("demo.toml"));
+    mission.recording = frames();
+    Topology topology(mission, {.lockstep = true, .workers = workers});
+    LockstepClock clock;
+    Keeper keeper(topology, frame_sets);
+    Scheduler scheduler(topology.table(), clock, keeper);
+    topology.health.observe(scheduler);
+    scheduler.run(frame_sets);
+    return keeper.results;
+  }
+};
+
+TEST_F(Chain, FindsTheAttitudeInEveryFrameSetWithAnHonestUncertainty) {
+  const std::vector<FrameSetResult> results = fly(1);
+  ASSERT_EQ(results.size(), kFrameSets);
+  double nees = 0;
+  for (std::size_t f = 0; f < results.size(); ++f) {
+    const AttitudeEstimate& estimate = results[f].attitude;
+    ASSERT_TRUE(estimate.valid) << "frame set " << f;
+    EXPECT_GE(estimate.solution.pairs, 20) << "frame set " << f;
+    const sim::SceneInstant truth = sim::scene_at(scenario(), scenario().time_of(f));
+    const Eigen::Vector3d error =
+        rotation_log(truth.rig_from_j2000 * estimate.solution.rig_from_j2000.conjugate());
+    nees += error.dot(estimate.solution.covariance.ldlt().solve(error));
+    EXPECT_LT(error.norm(), 60 * kArcsec) << "frame set " << f;
+  }
+  nees /= kFrameSets;
+  RecordProperty("nees", std::to_string(nees));
+  EXPECT_LT(nees, 15);
+}
+
+TEST_F(Chain, FindsTheCardFromItsPatternWithAnHonestUncertainty) {
+  const std::vector<FrameSetResult> results = fly(1);
+  double nees = 0;
+  int found = 0;
+  for (std::size_t f = 0; f < results.size(); ++f) {
+    ASSERT_EQ(results[f].poses.bodies.size(), 1U);
+    const PoseEstimate& estimate = results[f].poses.bodies[0];
+    if (!estimate.valid) continue;
+    ++found;
+    const Pose truth = sim::scene_at(scenario(), scenario().time_of(f)).rig_from_body[0];
+    Vector6d error;
+    error.head<3>() = rotation_log(truth.rotation * estimate.solution.rig_from_body.rotation.conjugate());
+    error.tail<3>() = truth.translation - estimate.solution.rig_from_body.translation;
+    nees += error.dot(estimate.solution.covariance.ldlt().solve(error));
+    EXPECT_LT(error.tail<3>().norm(), 0.01 * truth.translation.norm()) << "frame set " << f;
+    EXPECT_LT(error.head<3>().norm(), 0.02) << "frame set " << f;
+  }
+  EXPECT_GE(found, kFrameSets - 2);
+  nees /= found;
+  RecordProperty("nees", std::to_string(nees));
+  EXPECT_LT(nees, 15);
+}
+
+TEST_F(Chain, GivesTheSameBitsWithOneWorkerAndWithTwo) {
+  const std::vector<FrameSetResult> one = fly(1);
+  const std::vector<FrameSetResult> two = fly(2);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t f = 0; f < one.size(); ++f) {
+    EXPECT_EQ(one[f].attitude.solution.rig_from_j2000.coeffs(),
+              two[f].attitude.solution.rig_from_j2000.coeffs());
+    EXPECT_EQ(one[f].attitude.solution.covariance, two[f].attitude.solution.covariance);
+    ASSERT_EQ(one[f].poses.bodies.size(), two[f].poses.bodies.size());
+    EXPECT_EQ(one[f].poses.bodies[0].solution.covariance, two[f].poses.bodies[0].solution.covariance);
+    EXPECT_EQ(one[f].poses.bodies[0].solution.rig_from_body.translation,
+              two[f].poses.bodies[0].solution.rig_from_body.translation);
+  }
+}
+
+// The recording is shorter than the flight: the rest is frame sets with every camera missing, which must not
+// touch memory either.
+TEST_F(Chain, TouchesNoMemoryInAThousandFrameSets) {
+  if (!memory_guard::installed()) GTEST_SKIP() << "the memory guard is not for sanitizer builds";
+  const memory_guard::Violations before = memory_guard::violations();
+  fly(2, 1000);
+  EXPECT_EQ(memory_guard::violations().allocations, before.allocations);
+  EXPECT_EQ(memory_guard::violations().releases, before.releases);
+  EXPECT_EQ(memory_guard::violations().mappings, before.mappings);
+}
+
+}  // namespace
+}  // namespace omma

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 
 #include "fsw/kernel/tick.hpp"
 
@@ -34,13 +35,18 @@ class LockstepClock final : public Clock {
  public:
   /// @param start  on-board time of tick 0, for instance the first stamp of a recording [ns]
   explicit LockstepClock(TimeNs start = 0) : now_(start) {}
+  /// Called between two base ticks, outside every step: time waits for it, however long it takes (the log of
+  /// a replay keeps up this way). It must not throw.
+  void before_each_tick(std::function<void()> wait) { wait_ = std::move(wait); }
   TimeNs now() noexcept override { return now_.load(std::memory_order_relaxed); }
   void sleep_until(TimeNs instant) noexcept override {
+    if (wait_) wait_();
     if (instant > now()) now_.store(instant, std::memory_order_relaxed);
   }
   bool lockstep() const noexcept override { return true; }
 
  private:
+  std::function<void()> wait_;
   std::atomic<TimeNs> now_;  // atomic: the pool's workers may ask for the time
 };
 

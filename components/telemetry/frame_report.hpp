@@ -1,0 +1,64 @@
+// FrameReport: everything telemetry says about one frame set, as the C structs of the IDL with all their
+// storage inside. Filled in a step, written out by the telemetry thread.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "components/telemetry/topics.hpp"
+#include "config/limits.hpp"
+#include "fsw/kernel/fixed_string.hpp"
+#include "fsw/kernel/static_vector.hpp"
+#include "fsw/services/event.hpp"
+
+namespace omma::telemetry {
+
+/// Names that samples carry, in the order of the rig and of the mission.
+struct TelemetryNames {
+  StaticVector<Name, limits::kCameras> cameras;
+  StaticVector<Name, limits::kTargetBodies> bodies;
+};
+
+/// An event on its way: the numbers; its name and its sentence are made off the real-time path.
+struct EventSample {
+  omma_Event sample{};
+  EventRecord record;
+};
+
+class FrameReport {
+ public:
+  static constexpr std::size_t kEvents = 16;  ///< more wait for the next frame set
+
+  /// Allocates the dots of so many cameras; nothing afterwards.
+  explicit FrameReport(const TelemetryNames& names);
+  FrameReport(const FrameReport&) = delete;
+  FrameReport& operator=(const FrameReport&) = delete;
+
+  /// One sample to send. `event` is set where the sample still wants its texts.
+  struct Entry {
+    TopicId topic = TopicId::kFrameSet;
+    const void* sample = nullptr;
+    EventSample* event = nullptr;
+  };
+  static constexpr std::size_t kEntries =
+      1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + kEvents + 2;  // as the members below
+  StaticVector<Entry, kEntries> entries;                                   ///< in the order they are sent
+
+  omma_FrameSet frame_set{};
+  std::array<omma_CameraDots, limits::kCameras> dots{};
+  omma_Attitude attitude{};
+  std::array<omma_RelativePose, limits::kTargetBodies> poses{};
+  omma_ImageChunk image_chunk{};
+  std::array<EventSample, kEvents> events{};
+  omma_Health health{};
+  omma_Timing timing{};
+
+ private:
+  std::vector<omma_Dot> dot_storage_;
+  std::vector<std::uint8_t> pixels_;
+  std::array<omma_CameraStatus, limits::kCameras> cameras_{};
+  std::array<omma_GroupHealth, limits::kRateGroups> groups_{};
+  std::array<omma_StepTiming, limits::kComponents> steps_{};
+};
+
+}  // namespace omma::telemetry

@@ -1,0 +1,245 @@
+// Field by field from the components' messages to the structs of the IDL.
+#include "components/telemetry/samples.hpp"
+
+namespace omma::telemetry {
+namespace {
+
+// The enumerations of the IDL follow the components' own, value by value.
+template <class To, class From>
+To same(From value) noexcept {
+  return static_cast<To>(value);
+}
+static_assert(omma_FRAME_MISSING == static_cast<int>(FrameStatus::kMissing));
+static_assert(omma_FRAME_FRESH == static_cast<int>(FrameStatus::kFresh));
+static_assert(omma_FRAME_LATE == static_cast<int>(FrameStatus::kLate));
+static_assert(omma_FRAME_STUCK == static_cast<int>(FrameStatus::kStuck));
+static_assert(omma_FRAME_SATURATED == static_cast<int>(FrameStatus::kSaturated));
+static_assert(omma_TRACK_LOST == static_cast<int>(TrackState::kLost));
+static_assert(omma_TRACK_ACQUIRED == static_cast<int>(TrackState::kAcquired));
+static_assert(omma_TRACK_TRACKING == static_cast<int>(TrackState::kTracking));
+static_assert(omma_SOLVE_NONE == static_cast<int>(SolveStatus::kNone));
+static_assert(omma_SOLVE_SOLVED == static_cast<int>(SolveStatus::kSolved));
+static_assert(omma_SOLVE_ITERATION_CAP == static_cast<int>(SolveStatus::kIterationCap));
+static_assert(omma_SOLVE_TOO_FEW_PAIRS == static_cast<int>(SolveStatus::kTooFewPairs));
+static_assert(omma_SOLVE_UNOBSERVABLE == static_cast<int>(SolveStatus::kUnobservable));
+static_assert(omma_SOLVE_INCONSISTENT == static_cast<int>(SolveStatus::kInconsistent));
+static_assert(omma_HEALTH_OK == static_cast<int>(HealthState::kOk));
+static_assert(omma_HEALTH_DEGRADED == static_cast<int>(HealthState::kDegraded));
+static_assert(omma_HEALTH_FAILED == static_cast<int>(HealthState::kFailed));
+static_assert(omma_IMAGE_PANORAMA_J2000 == static_cast<int>(ImageKind::kPanoramaJ2000));
+static_assert(omma_IMAGE_PANORAMA_RIG == static_cast<int>(ImageKind::kPanoramaRig));
+static_assert(omma_IMAGE_VIEW == static_cast<int>(ImageKind::kView));
+
+omma_Quaternion quaternion(const Eigen::Quaterniond& q) noexcept {
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
+omma_Vector3 vector(const Eigen::Vector3d& v) noexcept {
+  return {v.x(), v.y(), v.z()};
+}
+
+// Row after row, whatever Eigen's own order.
+template <class Matrix>
+void put_matrix(const Matrix& matrix, double* out) noexcept {
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+    for (Eigen::Index column = 0; column < matrix.cols(); ++column) *out++ = matrix(row, column);
+}
+
+std::uint32_t star_count(const Pairings& pairings, std::size_t camera) noexcept {
+  return static_cast<std::uint32_t>(
+      std::count_if(pairings.sky.pairs.begin(), pairings.sky.pairs.end(),
+                    [camera](const Pairing& pair) { return pair.camera == camera; }));
+}
+
+std::uint32_t target_count(const Pairings& pairings, std::size_t camera) noexcept {
+  std::uint32_t count = 0;
+  for (const BodyPairings& body : pairings.bodies)
+    for (const Pairing& pair : body.pairs) count += pair.camera == camera ? 1U : 0U;
+  return count;
+}
+
+omma_Dot unpaired(const Dot& dot) noexcept {
+  omma_Dot out{};
+  out.u_px = static_cast<float>(dot.pixel.x());
+  out.v_px = static_cast<float>(dot.pixel.y());
+  out.covariance_uu_px2 = static_cast<float>(dot.covariance(0, 0));
+  out.covariance_uv_px2 = static_cast<float>(dot.covariance(0, 1));
+  out.covariance_vv_px2 = static_cast<float>(dot.covariance(1, 1));
+  out.flux_levels = dot.flux;
+  out.snr = dot.snr;
+  out.flags = dot.flags;
+  return out;
+}
+
+omma_Dot* dot_of(const Pairing& pair, std::span<omma_CameraDots> cameras) noexcept {
+  if (pair.camera >= cameras.size()) return nullptr;
+  omma_CameraDots& dots = cameras[pair.camera];
+  return pair.dot < dots.dots._length ? &dots.dots._buffer[pair.dot] : nullptr;
+}
+
+// The whitener has no component along the ray, so the whitened direction is the whitened difference.
+float residual_sigma(const Sight& sight, const Eigen::Vector3d& predicted) noexcept {
+  return static_cast<float>((sight.whitener * predicted).norm());
+}
+
+}  // namespace
+
+void fill(const Frames& frames, const DotLists& dots, const Pairings& pairings, omma_FrameSet& out) noexcept {
+  out.frame = dots.frame;
+  out.time_ns = dots.time_ns;
+  out.valid = true;
+  out.sky_state = same<omma_TrackState>(pairings.sky.state);
+  out.stars_paired = static_cast<std::uint32_t>(pairings.sky.pairs.size());
+  out.targets_paired = 0;
+  for (const BodyPairings& body : pairings.bodies)
+    out.targets_paired += static_cast<std::uint32_t>(body.pairs.size());
+  out.unclaimed_dots = pairings.unclaimed_dots;
+  const std::size_t count = std::min<std::size_t>(out.cameras._maximum, dots.cameras.size());
+  out.cameras._length = static_cast<std::uint32_t>(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    omma_CameraStatus& status = out.cameras._buffer[c];
+    const DotList& list = dots.cameras[c];
+    const bool has_frame = c < frames.cameras.size();
+    status.state = same<omma_FrameState>(has_frame ? frames.cameras[c].status : FrameStatus::kMissing);
+    status.image_number = has_frame ? frames.cameras[c].number : 0;
+    status.exposure_midpoint_ns = has_frame ? frames.cameras[c].exposure_midpoint_ns : 0;
+    status.dots_kept = static_cast<std::uint32_t>(list.dots.size());
+    status.dots_found = status.dots_kept + list.dropped;
+    status.stars_paired = star_count(pairings, c);
+    status.targets_paired = target_count(pairings, c);
+    status.background_levels = list.background;
+    status.noise_levels = list.noise;
+  }
+}
+
+void fill(const DotLists& lists, std::size_t camera, omma_CameraDots& out) noexcept {
+  const DotList& list = lists.cameras[camera];
+  out.frame = lists.frame;
+  out.time_ns = list.time_ns;
+  out.valid = list.status == FrameStatus::kFresh;
+  out.camera = static_cast<std::uint8_t>(camera);
+  out.dots._length = static_cast<std::uint32_t>(list.dots.size());
+  std::transform(list.dots.begin(), list.dots.end(), out.dots._buffer, unpaired);
+}
+
+void claim(const SkyPairings& sky, const AttitudeEstimate& attitude,
+           std::span<omma_CameraDots> cameras) noexcept {
+  const Eigen::Matrix3d rig_from_j2000 = attitude.solution.rig_from_j2000.toRotationMatrix();
+  for (std::size_t i = 0; i < sky.pairs.size(); ++i) {
+    const Pairing& pair = sky.pairs[i];
+    omma_Dot* dot = dot_of(pair, cameras);
+    if (dot == nullptr) continue;
+    dot->role = omma_DOT_STAR;
+    dot->entry = pair.entry;
+    if (!attitude.valid) continue;
+    dot->culled = i < attitude.used.size() && attitude.used[i] == 0;
+    dot->residual_sigma = residual_sigma(pair.sight, rig_from_j2000 * pair.sight.point);
+  }
+}
+
+void claim(const BodyPairings& body, const PoseEstimate* pose, std::span<omma_CameraDots> cameras) noexcept {
+  for (std::size_t i = 0; i < body.pairs.size(); ++i) {
+    const Pairing& pair = body.pairs[i];
+    omma_Dot* dot = dot_of(pair, cameras);
+    if (dot == nullptr) continue;
+    dot->role = omma_DOT_TARGET;
+    dot->body = body.body;
+    dot->entry = pair.entry;
+    if (pose == nullptr || !pose->valid) continue;
+    dot->culled = i < pose->used.size() && pose->used[i] == 0;
+    const Eigen::Vector3d from_camera = pose->solution.rig_from_body * pair.sight.point - pair.sight.origin;
+    dot->residual_sigma = residual_sigma(pair.sight, from_camera.normalized());
+  }
+}
+
+void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept {
+  const AttitudeSolution& solution = attitude.solution;
+  out.frame = attitude.frame;
+  out.time_ns = attitude.time_ns;
+  out.valid = attitude.valid;
+  out.state = same<omma_SolveState>(solution.status);
+  out.rig_from_j2000 = quaternion(solution.rig_from_j2000);
+  put_matrix(solution.covariance, out.covariance_rad2);
+  out.rate_valid = attitude.rate_valid;
+  out.rate_rad_s = vector(attitude.rate);
+  out.chi2 = solution.chi2;
+  out.residual_rms_rad = solution.residual_rms;
+  out.stars_used = solution.pairs;
+  out.stars_culled = solution.culled;
+  out.iterations = solution.iterations;
+}
+
+void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePose& out) noexcept {
+  const PoseSolution& solution = pose.solution;
+  out.frame = pose.frame;
+  out.time_ns = pose.time_ns;
+  out.valid = pose.valid;
+  out.body = pose.body;
+  set_text(out.body_name, body_name);
+  out.state = same<omma_SolveState>(solution.status);
+  out.rig_from_body = quaternion(solution.rig_from_body.rotation);
+  out.position_m = vector(solution.rig_from_body.translation);
+  put_matrix(solution.covariance, out.covariance);
+  out.chi2 = solution.chi2;
+  out.residual_rms_rad = solution.residual_rms;
+  out.targets_used = solution.pairs;
+  out.targets_culled = solution.culled;
+  out.iterations = solution.iterations;
+  out.ambiguous = solution.ambiguous;
+  out.has_alternative = solution.has_alternative;
+  out.alternative_rig_from_body = quaternion(solution.alternative.rotation);
+  out.alternative_position_m = vector(solution.alternative.translation);
+  out.alternative_chi2 = solution.alternative_chi2;
+}
+
+void fill(const HealthReport& health, omma_Health& out) noexcept {
+  out.time_ns = health.time_ns;
+  out.valid = health.valid;
+  out.state = same<omma_HealthState>(health.state);
+  out.ticks_missed = health.ticks_missed;
+  out.over_budget = health.over_budget;
+  out.memory_violations = health.memory_violations;
+  out.events_dropped = health.events_dropped;
+  out.groups._length = static_cast<std::uint32_t>(health.groups.size());
+  std::transform(health.groups.begin(), health.groups.end(), out.groups._buffer,
+                 [](const GroupHealth& group) {
+                   return omma_GroupHealth{group.beats, group.missed, group.stopped};
+                 });
+}
+
+void fill(const TimingReport& timing, omma_Timing& out) noexcept {
+  out.time_ns = timing.time_ns;
+  out.valid = timing.valid;
+  out.steps._length = static_cast<std::uint32_t>(timing.steps.size());
+  for (std::size_t i = 0; i < timing.steps.size(); ++i) {
+    const StepTiming& step = timing.steps[i];
+    omma_StepTiming& to = out.steps._buffer[i];
+    set_text(to.name, step.name);
+    to.steps = step.steps;
+    to.last_ns = step.last_ns;
+    to.mean_ns = step.mean_ns;
+    to.max_ns = step.max_ns;
+    to.p99_ns = step.p99_ns;
+    to.cpu_mean_ns = step.cpu_mean_ns;
+    to.cpu_max_ns = step.cpu_max_ns;
+    to.budget_ns = step.budget_ns;
+    to.over_budget = step.over_budget;
+  }
+}
+
+void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {
+  out.frame = chunk.frame;
+  out.time_ns = chunk.time_ns;
+  out.valid = chunk.valid;
+  out.kind = same<omma_ImageKind>(chunk.kind);
+  out.image = chunk.image;
+  out.width_px = chunk.width;
+  out.height_px = chunk.height;
+  out.first_row = chunk.first_row;
+  out.rows = chunk.rows;
+  const std::size_t bytes = std::min(chunk.pixels.size(), static_cast<std::size_t>(chunk.rows) * chunk.width);
+  out.pixels._length = static_cast<std::uint32_t>(bytes);
+  std::copy_n(chunk.pixels.begin(), bytes, out.pixels._buffer);
+}
+
+}  // namespace omma::telemetry

@@ -1,0 +1,139 @@
+// One report per frame set: what goes into it, in which order, under which sample numbers.
+#include "components/telemetry/telemetry.hpp"
+
+#include <algorithm>
+
+#include "components/telemetry/samples.hpp"
+
+namespace omma {
+
+using telemetry::FrameReport;
+using telemetry::TopicId;
+using telemetry::TopicOf;
+
+Telemetry::Telemetry(const telemetry::TelemetryNames& names, Events& events)
+    : names_(names), events_(events), reports_(names) {}
+
+void Telemetry::visit_ports(PortVisitor& visitor) const {
+  visitor.input("frames", frames);
+  visitor.input("dots", dots);
+  visitor.input("pairings", pairings);
+  visitor.input("attitude", attitude);
+  visitor.input("poses", poses);
+  visitor.input("image", image);
+  visitor.input("health", health);
+  visitor.input("timing", timing);
+}
+
+void Telemetry::step(const Tick& /*tick*/) noexcept {
+  frame_ = dots->frame;
+  FrameReport* report = reports_.begin();
+  if (report == nullptr) {
+    count_dropped();
+    return;
+  }
+  add_frame_set(*report);
+  add_dots(*report);
+  add_products(*report);
+  add_housekeeping(*report);
+  add_events(*report);
+  reports_.send();
+}
+
+bool Telemetry::send_rest() noexcept {
+  FrameReport* report = reports_.has_room() ? reports_.begin() : nullptr;
+  if (report == nullptr) return true;  // once there is room
+  add_events(*report);
+  if (report->entries.empty()) return false;
+  reports_.send();
+  return true;
+}
+
+template <class Sample>
+void Telemetry::add(Report& report, Sample& sample, std::uint32_t& number) noexcept {
+  sample.sample_number = ++number;
+  report.entries.push_back({TopicOf<Sample>::id, &sample, nullptr});
+}
+
+void Telemetry::add_frame_set(Report& report) noexcept {
+  telemetry::fill(*frames, *dots, *pairings, report.frame_set);
+  add(report, report.frame_set, numbers_[static_cast<std::size_t>(TopicId::kFrameSet)]);
+}
+
+void Telemetry::add_dots(Report& report) noexcept {
+  const std::size_t count = std::min(names_.cameras.size(), dots->cameras.size());
+  for (std::size_t c = 0; c < count; ++c) {
+    telemetry::fill(*dots, c, report.dots[c]);
+    add(report, report.dots[c], dots_numbers_[c]);
+  }
+  const std::span<omma_CameraDots> cameras(report.dots.data(), count);
+  telemetry::claim(pairings->sky, *attitude, cameras);
+  for (const BodyPairings& body : pairings->bodies) {
+    const auto pose = std::find_if(poses->bodies.begin(), poses->bodies.end(),
+                                   [&](const PoseEstimate& estimate) { return estimate.body == body.body; });
+    telemetry::claim(body, pose == poses->bodies.end() ? nullptr : pose, cameras);
+  }
+}
+
+void Telemetry::add_products(Report& report) noexcept {
+  telemetry::fill(*attitude, report.attitude);
+  add(report, report.attitude, numbers_[static_cast<std::size_t>(TopicId::kAttitude)]);
+  for (std::size_t b = 0; b < poses->bodies.size(); ++b) {
+    const PoseEstimate& pose = poses->bodies[b];
+    if (pose.body >= names_.bodies.size()) continue;
+    telemetry::fill(pose, names_.bodies[pose.body].view(), report.poses[b]);
+    add(report, report.poses[b], pose_numbers_[pose.body]);
+  }
+  if (!image->valid) return;
+  telemetry::fill(*image, report.image_chunk);
+  add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
+}
+
+void Telemetry::add_housekeeping(Report& report) noexcept {
+  if (health->valid && (!has_health_ || health->time_ns != health_time_ns_)) {
+    has_health_ = true;
+    health_time_ns_ = health->time_ns;
+    telemetry::fill(*health, report.health);
+    report.health.frame = frame_;
+    report.health.telemetry_dropped = reports_.dropped();
+    report.health.log_lost = reports_.log_lost();
+    add(report, report.health, numbers_[static_cast<std::size_t>(TopicId::kHealth)]);
+  }
+  if (timing->valid && (!has_timing_ || timing->time_ns != timing_time_ns_)) {
+    has_timing_ = true;
+    timing_time_ns_ = timing->time_ns;
+    telemetry::fill(*timing, report.timing);
+    report.timing.frame = frame_;
+    add(report, report.timing, numbers_[static_cast<std::size_t>(TopicId::kTiming)]);
+  }
+}
+
+void Telemetry::add_events(Report& report) noexcept {
+  for (telemetry::EventSample& event : report.events) {
+    if (!events_.take(event.record)) return;
+    const EventRecord& record = event.record;
+    event.sample.frame = frame_;
+    event.sample.time_ns = record.time_ns;
+    event.sample.sample_number = ++numbers_[static_cast<std::size_t>(TopicId::kEvent)];
+    event.sample.valid = true;
+    event.sample.id = record.id;
+    event.sample.severity = static_cast<omma_EventSeverity>(record.severity);
+    event.sample.held_back = record.held_back;
+    event.sample.values._length = record.value_count;
+    report.entries.push_back({TopicId::kEvent, &event.sample, &event});
+  }
+}
+
+// What was not sent has a number all the same, so that the ground sees the gap. Events, health and timing are
+// not lost: they wait for the next report.
+void Telemetry::count_dropped() noexcept {
+  ++numbers_[static_cast<std::size_t>(TopicId::kFrameSet)];
+  ++numbers_[static_cast<std::size_t>(TopicId::kAttitude)];
+  if (image->valid) ++numbers_[static_cast<std::size_t>(TopicId::kImageChunk)];
+  const std::size_t count = std::min(names_.cameras.size(), dots->cameras.size());
+  for (std::size_t c = 0; c < count; ++c) ++dots_numbers_[c];
+  for (const PoseEstimate& pose : poses->bodies)
+    if (pose.body < names_.bodies.size()) ++pose_numbers_[pose.body];
+}
+
+}  // namespace omma

@@ -1,0 +1,105 @@
+// The life of the telemetry thread.
+#include "components/telemetry/telemetry_output.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "components/telemetry/samples.hpp"
+#include "fsw/services/event_text.hpp"
+
+namespace omma {
+namespace {
+
+// The writer never wakes the thread (that would be a system call in a real-time step), so it looks by itself.
+constexpr std::chrono::milliseconds kLookEvery{5};
+constexpr int kNiceness = 10;
+
+}  // namespace
+
+TelemetryOutput::TelemetryOutput(Telemetry& telemetry, std::vector<EventDescriptor> events)
+    : telemetry_(telemetry), reports_(telemetry.reports()), events_(std::move(events)) {}
+
+TelemetryOutput::~TelemetryOutput() {
+  if (thread_.joinable()) stop();
+}
+
+void TelemetryOutput::start() {
+  thread_ = std::thread([this] { serve(); });
+}
+
+void TelemetryOutput::serve() {
+  // On Linux a thread has a niceness of its own; refused, it runs as any other.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    const bool last_round = ending_;
+    hurry_ = false;
+    lock.unlock();
+    while (write_one()) room_.notify_one();
+    lock.lock();
+    if (last_round) return;
+    wake_.wait_for(lock, kLookEvery, [this] { return hurry_ || ending_; });
+  }
+}
+
+void TelemetryOutput::wait_for_room() {
+  while (!reports_.has_room()) {
+    std::unique_lock lock(mutex_);
+    hurry_ = true;
+    wake_.notify_one();
+    room_.wait_for(lock, kLookEvery);
+  }
+}
+
+void TelemetryOutput::stop() {
+  if (!thread_.joinable()) return;
+  do {
+    wait_for_room();
+  } while (telemetry_.send_rest());
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  for (const auto& sink : sinks_) sink->close();
+}
+
+std::vector<std::string> TelemetryOutput::failures() const {
+  std::vector<std::string> failures;
+  for (const auto& sink : sinks_)
+    if (std::string failure = sink->failure(); !failure.empty()) failures.push_back(std::move(failure));
+  return failures;
+}
+
+bool TelemetryOutput::write_one() {
+  telemetry::FrameReport* report = reports_.front();
+  if (report == nullptr) return false;
+  for (const telemetry::FrameReport::Entry& entry : report->entries) write(entry);
+  reports_.release();
+  std::uint64_t lost = 0;
+  for (const auto& sink : sinks_) lost += sink->is_log() ? sink->lost() : 0;
+  reports_.set_log_lost(lost);
+  return true;
+}
+
+void TelemetryOutput::write(const telemetry::FrameReport::Entry& entry) {
+  if (entry.event != nullptr) set_texts(*entry.event);
+  const std::span<const std::byte> cdr = cdr_.write(entry.topic, entry.sample);
+  for (const auto& sink : sinks_) sink->write(entry.topic, entry.sample, cdr);
+}
+
+void TelemetryOutput::set_texts(telemetry::EventSample& event) const {
+  const auto declared = std::find_if(events_.begin(), events_.end(), [&](const EventDescriptor& descriptor) {
+    return descriptor.id == event.record.id;
+  });
+  const bool known = declared != events_.end();
+  telemetry::set_text(event.sample.name,
+                      known ? std::string(declared->name) : "event_" + std::to_string(event.record.id));
+  telemetry::set_text(event.sample.text, known ? event_text(*declared, event.record) : std::string());
+}
+
+}  // namespace omma

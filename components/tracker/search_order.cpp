@@ -57,7 +57,7 @@ std::span<const SearchDot> SearchOrder::arrange(std::span<const RigDot> dots, co
         brighter += dots[by_camera_[m]].ray.dot(dot.ray) > cosine ? 1 : 0;
       const double spread_place = 50.0 * brighter + 50.0 * place / double(to - from);
       keys_.push_back({static_cast<float>(spread_place / fraction), by_camera_[n],
-                       star_limit(double(to - from), fraction, stars)});
+                       star_limit(place, fraction, stars)});
     }
     from = to;
   }

@@ -62,10 +62,13 @@ double SkyEvidence::weigh(const Eigen::Matrix3d& j2000_from_rig, std::uint16_t f
   std::array<double, 3> ratio = {1, 1, 1};
   double best = 1;
   const std::size_t count = std::min(dots_.size(), kDots);
-  for (std::size_t k = 0; k < count; ++k) {
-    if (k >= prepared_) {
+  for (std::size_t n = 0; n < count; ++n) {
+    // Those after the first of the pair, then those before it: where the brightest dots are lamps and text, a
+    // pair of stars is judged by the stars that follow.
+    const std::size_t k = first_ + n < count ? first_ + n : first_ + n - count;
+    if (n >= prepared_) {
       witnesses_[k] = witness(dots_[k]);
-      prepared_ = k + 1;
+      prepared_ = n + 1;
     }
     if (k == first_ || k == second_) continue;
     const Witness& w = witnesses_[k];

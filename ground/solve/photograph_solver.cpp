@@ -18,6 +18,8 @@ namespace {
 constexpr double kLensErrorAtFirst = 0.3;
 // No photograph's lens is known better than this [px].
 constexpr double kLeastLensError = 0.02;
+// Nobody waits for a photograph as a spacecraft waits for its attitude: about half a second at most.
+constexpr std::uint32_t kHypothesisLimit = 1'000'000;
 
 class Stopwatch {
  public:
@@ -66,7 +68,7 @@ struct PhotographSolver::Work {
         options(the_options),
         // Two stars within two pixels are one dot.
         catalogue(options.observer, {options.magnitude_limit, 2 * finest_pixel_angle(rig)}),
-        identification(catalogue, sky_coverage(rig)) {
+        identification(catalogue, sky_coverage(rig), {.hypothesis_limit = kHypothesisLimit}) {
     for (const RigCamera& camera : rig.cameras) {
       extractors.push_back(std::make_unique<DotExtractor>(camera.lens.width(), camera.lens.height()));
     }

@@ -18,6 +18,8 @@ namespace {
 constexpr double kLensErrorAtFirst = 0.3;
 // No photograph's lens is known better than this [px].
 constexpr double kLeastLensError = 0.02;
+constexpr double kLargestLensError = 10;
+constexpr int kPasses = 4;
 // Nobody waits for a photograph as a spacecraft waits for its attitude: about half a second at most.
 constexpr std::uint32_t kHypothesisLimit = 1'000'000;
 
@@ -77,7 +79,11 @@ struct PhotographSolver::Work {
   void extract(const std::vector<ImageView>& images);
   bool identify(PhotographSolution& solution);
   void pair_and_solve(const PredictedAttitude& prediction, double lens_error, PhotographSolution& solution);
-  double residuals(PhotographSolution& solution) const;
+  void residuals(PhotographSolution& solution) const;
+  double lens_error(const PhotographSolution& solution) const;
+  const Dot& dot_of(const SolvedPair& pair) const {
+    return dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
+  }
   void finish(PhotographSolution& solution) const;
 
   Rig rig;
@@ -128,8 +134,8 @@ void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction,
   for (std::size_t i = 0; i < pairs.size(); ++i) solution.pairs.push_back({pairs[i], used[i] != 0, 0});
 }
 
-// Distance of each dot from its star [px]; returns its root mean square over the used ones.
-double PhotographSolver::Work::residuals(PhotographSolution& solution) const {
+// Distance of each dot from its star [px].
+void PhotographSolver::Work::residuals(PhotographSolution& solution) const {
   double sum = 0;
   int count = 0;
   for (SolvedPair& pair : solution.pairs) {
@@ -138,12 +144,30 @@ double PhotographSolver::Work::residuals(PhotographSolution& solution) const {
                                       (solution.attitude.rig_from_j2000 * pair.pairing.sight.point);
     Eigen::Vector2d pixel;
     if (!camera.lens.project(direction, pixel)) continue;
-    pair.residual_px = (dots.cameras[pair.pairing.camera].dots[pair.pairing.dot].pixel - pixel).norm();
+    pair.residual_px = (dot_of(pair).pixel - pixel).norm();
     if (!pair.used) continue;
     sum += pair.residual_px * pair.residual_px;
     ++count;
   }
-  return count == 0 ? 0 : std::sqrt(sum / count);
+  solution.residual_rms_px = count == 0 ? 0 : std::sqrt(sum / count);
+}
+
+// The standard deviation per axis that, added to the dots' own, makes the residuals as large as they are: the
+// root f of Σ r²/(tr C + 2f²) = n.
+double PhotographSolver::Work::lens_error(const PhotographSolution& solution) const {
+  double low = kLeastLensError;
+  double high = kLargestLensError;
+  for (int halving = 0; halving < 20; ++halving) {
+    const double f = 0.5 * (low + high);
+    double excess = 0;
+    for (const SolvedPair& pair : solution.pairs) {
+      if (!pair.used) continue;
+      const double variance = dot_of(pair).covariance.trace() + 2 * f * f;
+      excess += pair.residual_px * pair.residual_px / variance - 1;
+    }
+    (excess > 0 ? low : high) = f;
+  }
+  return 0.5 * (low + high);
 }
 
 void PhotographSolver::Work::finish(PhotographSolution& solution) const {
@@ -175,17 +199,17 @@ PhotographSolution PhotographSolver::solve(const std::vector<ImageView>& images)
   // The dots' own covariances do not know what the lens file is wrong by; the residuals do. Solve with a
   // guess, measure, solve again with what was measured: the uncertainty reported then includes it.
   PredictedAttitude attitude{work_->identified.rig_from_j2000, work_->identified.covariance};
-  double lens_error = kLensErrorAtFirst;
-  for (int pass = 0; pass < 3; ++pass) {
-    work_->pair_and_solve(attitude, lens_error, solution);
-    solution.residual_rms_px = work_->residuals(solution);
+  double error = kLensErrorAtFirst * work_->identified.widening;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    work_->pair_and_solve(attitude, error, solution);
     if (solution.attitude.status != SolveStatus::kSolved &&
         solution.attitude.status != SolveStatus::kIterationCap) {
       solution.reason = "identified stars do not agree on one attitude";
       return solution;
     }
+    work_->residuals(solution);
     attitude = {solution.attitude.rig_from_j2000, solution.attitude.covariance};
-    lens_error = std::max(kLeastLensError, solution.residual_rms_px * M_SQRT1_2);  // per axis
+    error = work_->lens_error(solution);
   }
   solution.times.attitude_ms = stopwatch.lap_ms();
   solution.solved = true;

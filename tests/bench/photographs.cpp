@@ -91,9 +91,9 @@ std::vector<Photograph> longyearbyen(const fs::path& sky) {
 std::vector<Photograph> indi(const fs::path& sky) {
   const std::string base = sky / "indi" / "20210421_043940";
   const json truth = json_of(base + "_truth.json");
-  // Trailed stars, 0.79 px rms of 270" each, and refraction in the fitted lens.
+  // Trailed stars, 0.79 px rms of 272" each, and refraction in the fitted lens.
   Photograph photograph =
-      single("indi", base + ".jpg", base + "_calib_results.txt", rotation_of(truth["C_cam_from_J2000"]), 600);
+      single("indi", base + ".jpg", base + "_calib_results.txt", rotation_of(truth["C_cam_from_J2000"]), 150);
   return {photograph};
 }
 
@@ -120,7 +120,7 @@ std::vector<Photograph> medium_field(const fs::path& sky) {
       photograph.rig_from_j2000 = looking_at(entry["astrometry_net_center"][0].get<double>() * kDegree,
                                              entry["astrometry_net_center"][1].get<double>() * kDegree,
                                              -solved["Roll"].get<double>() * kDegree);
-      photograph.tolerance_arcsec = Eigen::Vector3d(180, 180, 1800);
+      photograph.tolerance_arcsec = Eigen::Vector3d(60, 60, 600);
     }
     found.push_back(photograph);
   }

@@ -114,6 +114,8 @@ bool PhotographSolver::Work::identify(PhotographSolution& solution) {
   solution.log10_false_match = identified.log10_false_match;
   if (identified.status == IdentificationStatus::kIdentified) return true;
   solution.reason = reason(identified.status);
+  if (identified.status == IdentificationStatus::kTooFewDots)
+    solution.reason += " (" + std::to_string(seen.rays().size()) + ")";
   return false;
 }
 

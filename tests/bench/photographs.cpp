@@ -63,7 +63,7 @@ Photograph single(const std::string& name, const fs::path& image, const fs::path
   Photograph photograph;
   photograph.name = name;
   photograph.images = {image};
-  photograph.lens = lens;
+  photograph.lenses = {lens};
   photograph.rig.cameras.push_back(camera_named("cam0", read_lens_file(lens)));
   photograph.rig_from_j2000 = truth;
   photograph.tolerance_arcsec = Eigen::Vector3d::Constant(tolerance);
@@ -162,6 +162,7 @@ std::vector<Photograph> rigs(const fs::path& sky) {
     photograph.name = "rig, attitude " + std::to_string(attitude);
     photograph.rig.name = Name("stellarium");
     photograph.images.push_back(place / shot["file"].get<std::string>());
+    photograph.lenses.push_back(lens_of(sky, shot));
     RigCamera camera =
         camera_named("cam" + std::to_string(shot["camera"].get<int>()), read_lens_file(lens_of(sky, shot)));
     camera.rig_from_camera.rotation =

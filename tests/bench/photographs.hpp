@@ -16,10 +16,10 @@ namespace omma {
 /// One or several images of one instant, and what is known of them.
 struct Photograph {
   std::string name;
-  std::filesystem::path lens;                 ///< of a single image; empty: `fov_deg` or `rig`
-  double fov_deg = 0;                         ///< horizontal field of a pinhole camera; 0: `lens` or `rig`
-  Rig rig;                                    ///< cameras in the order of `images`
   std::vector<std::filesystem::path> images;  ///< one a camera
+  std::vector<std::filesystem::path> lenses;  ///< one a camera; empty: a pinhole camera of `fov_deg`
+  double fov_deg = 0;                         ///< horizontal
+  Rig rig;                                    ///< the cameras, with those lenses
   Observer observer;                          ///< epoch and site where known
   std::string epoch;                          ///< the same as an operator types it; empty: not known
   std::string site;

@@ -4,16 +4,18 @@ namespace omma::telemetry {
 
 const std::array<Topic, kTopicCount>& topics() noexcept {
   static const std::array<Topic, kTopicCount> table{{
-      {TopicId::kFrameSet, "frame_set", "omma::FrameSet", &omma_FrameSet_desc, Delivery::kStream, 1, false},
-      {TopicId::kDots, "dots", "omma::CameraDots", &omma_CameraDots_desc, Delivery::kStream, 1, false},
-      {TopicId::kAttitude, "attitude", "omma::Attitude", &omma_Attitude_desc, Delivery::kStream, 1, false},
-      {TopicId::kRelativePose, "relative_pose", "omma::RelativePose", &omma_RelativePose_desc,
-       Delivery::kStream, 1, false},
-      {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, false},
-      {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, true},
-      {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, false},
-      {TopicId::kImageChunk, "image_chunk", "omma::ImageChunk", &omma_ImageChunk_desc, Delivery::kStream, 1,
+      {TopicId::kFrameSet, "frame_set", "omma::FrameSet", &omma_FrameSet_desc, Delivery::kStream, 1, 2000,
        false},
+      {TopicId::kDots, "dots", "omma::CameraDots", &omma_CameraDots_desc, Delivery::kStream, 1, 2000, false},
+      {TopicId::kAttitude, "attitude", "omma::Attitude", &omma_Attitude_desc, Delivery::kStream, 1, 2000,
+       false},
+      {TopicId::kRelativePose, "relative_pose", "omma::RelativePose", &omma_RelativePose_desc,
+       Delivery::kStream, 1, 0, false},
+      {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, 3000, false},
+      {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, 3000, true},
+      {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, 0, false},
+      {TopicId::kImageChunk, "image_chunk", "omma::ImageChunk", &omma_ImageChunk_desc, Delivery::kStream, 1,
+       0, false},
   }};
   return table;
 }

@@ -37,8 +37,9 @@ struct Topic {
   std::string_view type_name;  ///< in the IDL, as in omma::Attitude
   const dds_topic_descriptor_t* descriptor;
   Delivery delivery;
-  std::int32_t depth;  ///< of the KEEP_LAST history, per key
-  bool measured;       ///< holds measured durations: not the same from run to run
+  std::int32_t depth;        ///< of the KEEP_LAST history, per key
+  std::int32_t deadline_ms;  ///< offered: longest time between two samples (of a key); 0: none is promised
+  bool measured;             ///< holds measured durations: not the same from run to run
 };
 
 const std::array<Topic, kTopicCount>& topics() noexcept;

@@ -7,6 +7,9 @@
 #include <filesystem>
 #include <string>
 
+#include "components/telemetry/dds_sink.hpp"
+#include "components/telemetry/log_sink.hpp"
+#include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/run_summary.hpp"
 #include "fsw/app/topology.hpp"
@@ -20,9 +23,11 @@ namespace {
 struct Arguments {
   std::string mission;
   std::string frames;
+  std::string log;
   std::uint64_t frame_sets = 0;
   int workers = 1;
   bool real_time = false;
+  bool no_dds = false;
   bool graph = false;
 };
 
@@ -32,8 +37,27 @@ extern "C" void stop_running(int /*signal*/) {
   if (running != nullptr) running->stop();
 }
 
-void say(const omma::Refusals& refusals) {
-  for (const std::string& refusal : refusals) std::fprintf(stderr, "omma-fsw: %s\n", refusal.c_str());
+void say(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences) std::fprintf(stderr, "omma-fsw: %s\n", sentence.c_str());
+}
+
+/// Every event this program can raise.
+std::vector<omma::EventDescriptor> events() {
+  std::vector<omma::EventDescriptor> all(omma::kScheduleEvents.begin(), omma::kScheduleEvents.end());
+  all.insert(all.end(), omma::kHealthEvents.begin(), omma::kHealthEvents.end());
+  return all;
+}
+
+void add_sinks(const Arguments& arguments, const omma::Mission& mission, omma::TelemetryOutput& output) {
+  const std::string_view spacecraft = mission.spacecraft.view();
+  if (!arguments.log.empty())
+    output.add(std::make_unique<omma::telemetry::LogSink>(arguments.log, spacecraft, true));
+  if (arguments.no_dds) return;
+  try {
+    output.add(std::make_unique<omma::telemetry::DdsSink>(spacecraft, mission.dds_domain));
+  } catch (const std::runtime_error& error) {
+    say({std::string(error.what()) + "; flying on without"});
+  }
 }
 
 int fly(const Arguments& arguments) {
@@ -49,15 +73,21 @@ int fly(const Arguments& arguments) {
   omma::ScheduleEvents observer(topology.events);
   omma::Scheduler scheduler(table, clock, observer);
   topology.health.observe(scheduler);
+  omma::TelemetryOutput output(topology.telemetry, events());
+  add_sinks(arguments, mission, output);
+  lockstep.before_each_tick([&output] { output.wait_for_room(); });
   if (arguments.real_time) say(omma::lock_process_memory());
+  output.start();
 
   running = &scheduler;
   std::signal(SIGINT, stop_running);
   std::signal(SIGTERM, stop_running);
   scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
   running = nullptr;
+  output.stop();
 
   say(scheduler.refusals());
+  say(output.failures());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);
   return 0;
 }
@@ -72,6 +102,9 @@ int main(int argc, char** argv) {
   app.add_option("--frames", arguments.frames,
                  "folder of recorded frames, <camera>/<camera>_<number>.png; default: the mission's");
   app.add_option("--frame-sets", arguments.frame_sets, "stop after so many; default: when the frames end");
+  app.add_option("--log", arguments.log,
+                 "file (MCAP) for all telemetry; measured durations go to a second one beside it");
+  app.add_flag("--no-dds", arguments.no_dds, "publish nothing");
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));
   app.add_flag("--real-time", arguments.real_time,

@@ -60,6 +60,13 @@ ImagingParameters imaging_parameters(const Mission& mission) {
   return parameters;
 }
 
+telemetry::TelemetryNames telemetry_names(const Mission& mission) {
+  telemetry::TelemetryNames names;
+  for (const RigCamera& camera : mission.rig.cameras) names.cameras.push_back(camera.name);
+  for (const TargetBody& body : mission.bodies) names.bodies.push_back(body.name);
+  return names;
+}
+
 }  // namespace
 
 Topology::Topology(const Mission& mission, const RunOptions& options)
@@ -74,7 +81,10 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       attitude(mission_.attitude),
       pose(mission_.pose),
       imaging(imaging_parameters(mission_), mission_.rig),
-      health(events) {
+      telemetry(telemetry_names(mission_), events),
+      health(events),
+      health_to_telemetry_(health.report),
+      timing_to_telemetry_(health.timing) {
   connect();
 }
 
@@ -89,6 +99,14 @@ void Topology::connect() {
   imaging.frames.bind(cameras.frames);
   imaging.dots.bind(extractor.dots);
   imaging.attitude.bind(attitude.estimate);
+  telemetry.frames.bind(cameras.frames);
+  telemetry.dots.bind(extractor.dots);
+  telemetry.pairings.bind(tracker.pairings);
+  telemetry.attitude.bind(attitude.estimate);
+  telemetry.poses.bind(pose.estimates);
+  telemetry.image.bind(imaging.chunk);
+  telemetry.health.bind(health_to_telemetry_);
+  telemetry.timing.bind(timing_to_telemetry_);
 }
 
 std::uint64_t Topology::frame_sets() const {
@@ -109,7 +127,8 @@ RateGroupTable Topology::table() {
                                      {tracker, microseconds(15000)},
                                      {attitude, microseconds(2000)},
                                      {pose, microseconds(2000)},
-                                     {imaging, microseconds(10000)}}},
+                                     {imaging, microseconds(10000)},
+                                     {telemetry, microseconds(1000)}}},
                      {.name = "health",
                       .divisor = beats_per_second(mission_.frame_rate_hz),
                       .priority = 10,

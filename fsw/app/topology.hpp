@@ -13,6 +13,7 @@
 #include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
+#include "components/telemetry/telemetry.hpp"
 #include "components/tracker/tracker.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/kernel/crossing.hpp"
@@ -60,9 +61,13 @@ class Topology {
   Attitude attitude;
   RelativePose pose;
   Imaging imaging;
+  Telemetry telemetry;
   Health health;
 
  private:
+  Latest<HealthReport> health_to_telemetry_;  // from one rate group to the other
+  Latest<TimingReport> timing_to_telemetry_;
+
   void connect();
 };
 

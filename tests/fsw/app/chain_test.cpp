@@ -1,18 +1,24 @@
 // The whole flight program on simulated frames: images in, attitude and relative pose out, judged against the
 // truth the images were drawn from.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
+#include "components/telemetry/log_sink.hpp"
+#include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/scheduler.hpp"
+#include "ground/recording.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
 
@@ -46,6 +52,11 @@ class Keeper final : public ScheduleObserver {
   const Topology& topology_;
 };
 
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 class Chain : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -53,15 +64,28 @@ class Chain : public testing::Test {
     scenario().frames = kFrameSets;
     ground::render_recording(scenario(), frames(), 2);
   }
-  static void TearDownTestSuite() { std::filesystem::remove_all(frames()); }
+  static void TearDownTestSuite() {
+    std::filesystem::remove_all(frames());
+    for (const int workers : {1, 2}) {
+      std::filesystem::remove(log(workers));
+      std::filesystem::remove(telemetry::timing_path(log(workers).string()));
+    }
+  }
 
   static sim::Scenario& scenario() {
     static sim::Scenario scenario;
     return scenario;
   }
+  // Of this process: tests may run side by side.
   static std::filesystem::path frames() {
-    return std::filesystem::path(OMMA_BINARY_DIR) / "tests" / "chain_test_frames";
+    return std::filesystem::path(OMMA_BINARY_DIR) / "tests" /
+           ("chain_test_frames_" + std::to_string(getpid()));
   }
+  static std::filesystem::path log(int workers) {
+    return std::filesystem::path(OMMA_BINARY_DIR) / "tests" /
+           ("chain_test_" + std::to_string(getpid()) + "_" + std::to_string(workers) + ".mcap");
+  }
+  /// Leaves its telemetry in log(workers).
   static std::vector<FrameSetResult> fly(int workers, std::uint64_t frame_sets = kFrameSets) {
     Mission mission = read_mission(config("demo.toml"));
     mission.recording = frames();
@@ -70,7 +94,13 @@ class Chain : public testing::Test {
     Keeper keeper(topology, frame_sets);
     Scheduler scheduler(topology.table(), clock, keeper);
     topology.health.observe(scheduler);
+    TelemetryOutput output(topology.telemetry, {});
+    output.add(std::make_unique<telemetry::LogSink>(log(workers).string(), "chain", true));
+    clock.before_each_tick([&] { output.wait_for_room(); });
+    output.start();
     scheduler.run(frame_sets);
+    output.stop();
+    EXPECT_EQ(topology.telemetry.reports().dropped(), 0U);
     return keeper.results;
   }
 };
@@ -129,6 +159,19 @@ TEST_F(Chain, GivesTheSameBitsWithOneWorkerAndWithTwo) {
     EXPECT_EQ(one[f].poses.bodies[0].solution.covariance, two[f].poses.bodies[0].solution.covariance);
     EXPECT_EQ(one[f].poses.bodies[0].solution.rig_from_body.translation,
               two[f].poses.bodies[0].solution.rig_from_body.translation);
+  }
+}
+
+TEST_F(Chain, LogsTheSameBytesWithOneWorkerAndWithTwo) {
+  const std::vector<FrameSetResult> results = fly(1);
+  fly(2);
+  EXPECT_EQ(bytes_of(log(1)), bytes_of(log(2)));
+  ground::Recording recording(log(1).string());
+  const std::vector<omma_Attitude> logged = recording.all<omma_Attitude>();
+  ASSERT_EQ(logged.size(), results.size());
+  for (std::size_t f = 0; f < logged.size(); ++f) {
+    EXPECT_EQ(logged[f].rig_from_j2000.w, results[f].attitude.solution.rig_from_j2000.w());
+    EXPECT_EQ(logged[f].stars_used, results[f].attitude.solution.pairs);
   }
 }
 

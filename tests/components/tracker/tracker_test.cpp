@@ -1,0 +1,170 @@
+// The tracker over many frame sets: acquires, tracks, notices that it has lost the sky, and finds it again.
+#include "components/tracker/tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/bench/sky_problem.hpp"
+#include "tests/components/tracker/seen_sky.hpp"
+
+namespace omma {
+namespace {
+
+constexpr TimeNs kInterval = 100'000'000;  // 10 Hz
+
+/// Tracker between dots of a known sky and an estimator that gives back the truth with a small covariance.
+class TrackedSky : public ::testing::Test {
+ protected:
+  TrackedSky() {
+    tracker_->dots.bind(*dots_);
+    tracker_->attitude.bind(*attitude_);
+    tracker_->poses.bind(*poses_);
+  }
+
+  enum class Seen { kSky, kNothing, kFalseDots };
+
+  TrackState step(Seen seen = Seen::kSky) {
+    ++frame_;
+    truth_ = (rotation_exp(1e-9 * double(kInterval) * rate_) * truth_).normalized();
+    DotLists& lists = **dots_;
+    lists.frame = frame_;
+    lists.time_ns = static_cast<TimeNs>(frame_) * kInterval;
+    sky_.see(truth_, lists);
+    if (seen != Seen::kSky) {
+      for (DotList& list : lists.cameras) list.dots.clear();
+    }
+    if (seen == Seen::kFalseDots) scatter(lists);
+    tracker_->step(Tick{frame_, lists.time_ns});
+    const SkyPairings& sky = tracker_->pairings->sky;
+    AttitudeEstimate& estimate = **attitude_;
+    estimate.valid = sky.state != TrackState::kLost && sky.pairs.size() >= 3;
+    if (estimate.valid) {
+      estimate.time_ns = lists.time_ns;
+      estimate.solution.rig_from_j2000 = truth_;
+      estimate.solution.covariance = 1e-10 * Eigen::Matrix3d::Identity();
+    }
+    return sky.state;
+  }
+
+  // As many dots as a sky has, anywhere.
+  static void scatter(DotLists& lists) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> u(5, 1018);
+    std::uniform_real_distribution<double> v(5, 762);
+    for (DotList& list : lists.cameras) {
+      for (int i = 0; i < 100; ++i) {
+        Dot dot;
+        dot.pixel = Eigen::Vector2d(u(random), v(random));
+        dot.covariance = 0.01 * Eigen::Matrix2d::Identity();
+        dot.flux = static_cast<float>(1000 - i);
+        list.dots.push_back(dot);
+      }
+    }
+  }
+
+  int wrong_pairs() const {
+    int count = 0;
+    for (const Pairing& p : tracker_->pairings->sky.pairs)
+      count += sky_.hr(p.camera, p.dot) == p.entry ? 0 : 1;
+    return count;
+  }
+  double start_error() const { return tracker_->pairings->sky.rig_from_j2000.angularDistance(truth_); }
+  void track() {
+    for (int i = 0; i < 4; ++i) step();
+    ASSERT_EQ(tracker_->pairings->sky.state, TrackState::kTracking);
+  }
+
+  Rig rig_ = equidistant_rig(3, 122);
+  std::unique_ptr<StarCatalogue> catalogue_ =
+      std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, 0.004});
+  SeenSky sky_{rig_, *catalogue_, 4.25F, 0.1};
+  std::unique_ptr<Tracker> tracker_ =
+      std::make_unique<Tracker>(TrackerParameters{}, rig_, *catalogue_, std::span<const TargetBody>{});
+  std::unique_ptr<Out<DotLists>> dots_ = std::make_unique<Out<DotLists>>();
+  std::unique_ptr<Out<AttitudeEstimate>> attitude_ = std::make_unique<Out<AttitudeEstimate>>();
+  std::unique_ptr<Out<PoseEstimates>> poses_ = std::make_unique<Out<PoseEstimates>>();
+  Eigen::Quaterniond truth_ = Eigen::Quaterniond(0.5, -0.1, 0.7, 0.4).normalized();
+  Eigen::Vector3d rate_{0.03, -0.02, 0.01};  // 2 degrees a second
+  std::uint64_t frame_ = 0;
+};
+
+TEST_F(TrackedSky, IsAcquiredLostInSpaceAndTrackedOnceItsRateIsKnown) {
+  EXPECT_EQ(step(), TrackState::kAcquired);
+  EXPECT_EQ(wrong_pairs(), 0);
+  EXPECT_GT(tracker_->pairings->sky.pairs.size(), 300u);
+  EXPECT_EQ(step(), TrackState::kAcquired);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(step(), TrackState::kTracking) << i;
+    EXPECT_EQ(wrong_pairs(), 0);
+    EXPECT_LT(start_error(), 1e-4);
+  }
+}
+
+TEST_F(TrackedSky, PairsSayForHowManyFramesTheyHaveLasted) {
+  for (std::uint32_t i = 1; i <= 6; ++i) {
+    step();
+    std::uint32_t longest = 0;
+    for (const Pairing& p : tracker_->pairings->sky.pairs) longest = std::max(longest, p.persistence);
+    EXPECT_EQ(longest, i);
+  }
+}
+
+TEST_F(TrackedSky, AJumpIsNoticedAndTheSkyAcquiredInTheSameFrameSet) {
+  track();
+  truth_ = rotation_exp({0.4, 0.3, -0.2}) * truth_;
+  EXPECT_EQ(step(), TrackState::kAcquired);
+  EXPECT_EQ(wrong_pairs(), 0);
+  EXPECT_LT(start_error(), 1e-4);
+  step();
+  EXPECT_EQ(step(), TrackState::kTracking);
+}
+
+TEST_F(TrackedSky, FalseDotsAreLossNotTracking) {
+  track();
+  EXPECT_EQ(step(Seen::kFalseDots), TrackState::kLost);
+  EXPECT_TRUE(tracker_->pairings->sky.pairs.empty());
+  EXPECT_EQ(tracker_->pairings->unclaimed_dots, 300u);
+  EXPECT_EQ(step(), TrackState::kAcquired);
+  EXPECT_EQ(wrong_pairs(), 0);
+}
+
+TEST_F(TrackedSky, ADarkFrameIsLossAndTheNextIsAcquired) {
+  track();
+  EXPECT_EQ(step(Seen::kNothing), TrackState::kLost);
+  EXPECT_TRUE(tracker_->pairings->sky.pairs.empty());
+  EXPECT_EQ(tracker_->pairings->unclaimed_dots, 0u);
+  EXPECT_EQ(step(), TrackState::kAcquired);
+  EXPECT_EQ(wrong_pairs(), 0);
+}
+
+TEST_F(TrackedSky, APredictionIsNotTrustedWithoutEstimatesForLong) {
+  track();
+  (**attitude_).valid = false;  // the estimator falls silent; its last estimate grows old
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(step(), TrackState::kTracking) << i;
+    (**attitude_).valid = false;
+  }
+  EXPECT_EQ(step(), TrackState::kAcquired);
+}
+
+TEST_F(TrackedSky, OneCameraIsEnough) {
+  track();
+  for (int i = 0; i < 3; ++i) {
+    ++frame_;
+    truth_ = (rotation_exp(1e-9 * double(kInterval) * rate_) * truth_).normalized();
+    DotLists& lists = **dots_;
+    lists.time_ns = static_cast<TimeNs>(frame_) * kInterval;
+    sky_.see(truth_, lists);
+    lists.cameras[0].dots.clear();
+    lists.cameras[2].dots.clear();
+    tracker_->step(Tick{frame_, lists.time_ns});
+    EXPECT_EQ(tracker_->pairings->sky.state, TrackState::kTracking);
+    EXPECT_GT(tracker_->pairings->sky.pairs.size(), 50u);
+    (**attitude_).time_ns = lists.time_ns;
+    (**attitude_).solution.rig_from_j2000 = truth_;
+  }
+}
+
+}  // namespace
+}  // namespace omma

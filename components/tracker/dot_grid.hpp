@@ -18,23 +18,21 @@ class DotGrid {
   /// `centre`; some of them lie outside it.
   template <class Visit>
   void near(const Eigen::Vector2d& centre, double radius, Visit&& visit) const noexcept {
-    const int u0 = cell_of(centre.x() - radius, cell_width_);
-    const int u1 = cell_of(centre.x() + radius, cell_width_);
-    const int v0 = cell_of(centre.y() - radius, cell_height_);
-    const int v1 = cell_of(centre.y() + radius, cell_height_);
-    for (int v = v0; v <= v1; ++v) {
-      for (int i = start_[static_cast<std::size_t>(v * kCells + u0)];
-           i < start_[static_cast<std::size_t>(v * kCells + u1 + 1)]; ++i) {
-        visit(order_[static_cast<std::size_t>(i)]);
-      }
+    const std::size_t u0 = cell_of(centre.x() - radius, cell_width_);
+    const std::size_t u1 = cell_of(centre.x() + radius, cell_width_);
+    const std::size_t v0 = cell_of(centre.y() - radius, cell_height_);
+    const std::size_t v1 = cell_of(centre.y() + radius, cell_height_);
+    for (std::size_t v = v0; v <= v1; ++v) {
+      const std::size_t end = start_[v * kCells + u1 + 1];
+      for (std::size_t i = start_[v * kCells + u0]; i < end; ++i) visit(order_[i]);
     }
   }
 
  private:
-  static constexpr int kCells = 64;  // along each side
-  static int cell_of(double pixel, double cell_size) noexcept {
+  static constexpr std::size_t kCells = 64;  // along each side
+  static std::size_t cell_of(double pixel, double cell_size) noexcept {
     const double cell = (pixel + 0.5) / cell_size;
-    return cell <= 0 ? 0 : (cell >= kCells - 1 ? kCells - 1 : static_cast<int>(cell));
+    return cell <= 0 ? 0 : (cell >= kCells - 1 ? kCells - 1 : static_cast<std::size_t>(cell));
   }
 
   double cell_width_ = 1;

@@ -1,5 +1,6 @@
 // Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes. `--trials N`
-// (10000 for the full table; 100000 skies of false dots alone are ten times N).
+// (200; 10000 for the full table), `--false-skies N` skies of false dots alone (as many; 100000), `--row K`
+// one row only (18: the false skies). A wrong answer makes the exit code 1.
 #include <cstdio>
 #include <memory>
 #include <numbers>
@@ -20,7 +21,8 @@ struct Case {
   double resolution_deg;  // stars closer than this are one dot
 };
 
-void run(const Case& c, int trials) {
+// @return wrong answers
+int run(const Case& c, int trials) {
   const auto catalogue =
       std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, c.resolution_deg * kDegree});
   const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig));
@@ -45,9 +47,11 @@ void run(const Case& c, int trials) {
               quantile(times, 0.99), quantile(times, 1.0), quantile(hypotheses, 0.5),
               quantile(hypotheses, 1.0));
   std::fflush(stdout);
+  return wrong;
 }
 
-void run_nothing_there(int trials) {
+// @return answers, all of them wrong
+int run_nothing_there(int trials) {
   const Rig rig = equidistant_rig(3, 122);
   const auto catalogue =
       std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, 0.25 * kDegree});
@@ -72,6 +76,7 @@ void run_nothing_there(int trials) {
   std::printf("%-46s %6d answers %d; cpu us med %.0f max %.0f; hypotheses med %.0f max %.0f\n",
               "5 to 300 false dots alone, 0.1 to 0.5 px", trials, answers, quantile(times, 0.5),
               quantile(times, 1.0), quantile(hypotheses, 0.5), quantile(hypotheses, 1.0));
+  return answers;
 }
 
 }  // namespace
@@ -120,11 +125,12 @@ int bench_identify(int argc, char** argv) {
   };
   const int row = option(argc, argv, "--row", 0);
   int number = 0;
+  int wrong = 0;
   for (const Case& c : cases) {
-    if (++number == row || row == 0) run(c, trials);
+    if (++number == row || row == 0) wrong += run(c, trials);
   }
-  if (row == 0 || row > number) run_nothing_there(10 * trials);
-  return 0;
+  if (row == 0 || row > number) wrong += run_nothing_there(option(argc, argv, "--false-skies", trials));
+  return wrong == 0 ? 0 : 1;
 }
 
 }  // namespace omma

@@ -39,6 +39,8 @@ void print_solution(const Photograph& photograph, const ground::PhotographSoluti
 Count run(const Photograph& photograph, int repeats) {
   std::vector<Image> images;
   std::vector<ImageView> views;
+  images.reserve(photograph.images.size());
+  views.reserve(photograph.images.size());
   for (const auto& file : photograph.images) images.push_back(read_image(file));
   for (const Image& image : images) views.push_back(image.view());
   ground::SolverOptions options;

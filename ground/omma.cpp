@@ -5,6 +5,8 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/command.hpp"
+#include "ground/compare/compare.hpp"
+#include "ground/export/export.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
 #include "ground/simulate/simulate.hpp"
@@ -19,6 +21,8 @@ int main(int argc, char** argv) {
   omma::ground::add_ideal_lens(app, context);
   omma::ground::add_monitor(app, context);
   omma::ground::add_record(app, context);
+  omma::ground::add_export(app, context);
+  omma::ground::add_compare(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

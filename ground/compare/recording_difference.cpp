@@ -1,0 +1,103 @@
+// Both files topic by topic: one topic of the first is held in memory while the second is read.
+#include "ground/compare/recording_difference.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "components/telemetry/cdr.hpp"
+#include "fsw/kernel/input_error.hpp"
+#include "ground/idl/cdr_values.hpp"
+#include "ground/mcap/mcap_reader.hpp"
+
+namespace omma::ground {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+std::string last_part(const std::string& topic) {
+  return topic.substr(topic.rfind('/') + 1);
+}
+
+std::vector<Bytes> samples_of(mcap::Reader& reader, const std::string& topic) {
+  std::vector<Bytes> samples;
+  reader.for_each_message([&](const mcap::Channel& channel) { return last_part(channel.topic) == topic; },
+                          [&](const mcap::MessageView& message) {
+                            samples.emplace_back(message.data.begin(), message.data.end());
+                            return true;
+                          });
+  if (!reader.damage().empty())
+    throw InputError(reader.path(), 0, "recording", "a whole file", reader.damage());
+  return samples;
+}
+
+/// The sample by the file's own description; none where it cannot be read by it.
+std::optional<std::vector<idl::Leaf>> leaves_of(const mcap::Reader& reader, const std::string& topic,
+                                                const Bytes& sample) {
+  for (const auto& [id, channel] : reader.channels()) {
+    const auto schema = reader.schemas().find(channel.schema);
+    if (last_part(channel.topic) != topic || schema == reader.schemas().end()) continue;
+    if (channel.encoding != "cdr" || schema->second.encoding != "omgidl") continue;
+    const idl::Schema parsed = idl::parse(schema->second.text, reader.path());
+    const auto type = parsed.structs.find(schema->second.name);
+    if (type != parsed.structs.end()) return idl::leaves(parsed, type->second, sample);
+  }
+  return std::nullopt;
+}
+
+std::string field_difference(const std::vector<idl::Leaf>& a, const std::vector<idl::Leaf>& b) {
+  const std::size_t both = std::min(a.size(), b.size());
+  for (std::size_t i = 0; i < both; ++i) {
+    if (a[i].path != b[i].path)
+      return "field " + a[i].path + " in the first, " + b[i].path + " in the second";
+    if (a[i].text != b[i].text)
+      return a[i].path + ": " + a[i].text + " in the first, " + b[i].text + " in the second";
+  }
+  if (a.size() != b.size()) return (a.size() > b.size() ? a : b)[both].path + ": only in one of them";
+  return "the same values in other bytes";
+}
+
+std::string sample_difference(const mcap::Reader& reader_a, const mcap::Reader& reader_b,
+                              const std::string& topic, std::size_t index, const Bytes& a, const Bytes& b) {
+  telemetry::SampleHead head;
+  std::string place = "sample " + std::to_string(index + 1);
+  if (telemetry::read_head(a, head)) place += " (frame " + std::to_string(head.frame) + ")";
+  const auto leaves_a = leaves_of(reader_a, topic, a);
+  const auto leaves_b = leaves_of(reader_b, topic, b);
+  if (!leaves_a || !leaves_b) return place + ": bytes that are not of the topic's type";
+  return place + ": " + field_difference(*leaves_a, *leaves_b);
+}
+
+TopicComparison compare_topic(mcap::Reader& reader_a, mcap::Reader& reader_b, const std::string& topic) {
+  const std::vector<Bytes> a = samples_of(reader_a, topic);
+  const std::vector<Bytes> b = samples_of(reader_b, topic);
+  TopicComparison result{
+      .topic = topic, .samples_a = a.size(), .samples_b = b.size(), .first_difference = {}};
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (a[i] == b[i]) continue;
+    if (result.different++ == 0)
+      result.first_difference = sample_difference(reader_a, reader_b, topic, i, a[i], b[i]);
+  }
+  if (a.size() != b.size() && result.first_difference.empty())
+    result.first_difference =
+        std::to_string(a.size()) + " samples in the first, " + std::to_string(b.size()) + " in the second";
+  return result;
+}
+
+}  // namespace
+
+std::vector<TopicComparison> compare_recordings(const std::string& path_a, const std::string& path_b) {
+  mcap::Reader reader_a(path_a);
+  mcap::Reader reader_b(path_b);
+  std::set<std::string> topics;
+  for (const mcap::Reader* reader : {&reader_a, &reader_b}) {
+    if (!reader->damage().empty())
+      throw InputError(reader->path(), 0, "recording", "a whole file", reader->damage());
+    for (const auto& [id, channel] : reader->channels()) topics.insert(last_part(channel.topic));
+  }
+  std::vector<TopicComparison> result;
+  for (const std::string& topic : topics) result.push_back(compare_topic(reader_a, reader_b, topic));
+  return result;
+}
+
+}  // namespace omma::ground

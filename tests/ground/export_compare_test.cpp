@@ -1,11 +1,8 @@
 // Recordings as CSV, and recordings compared.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +12,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "ground/compare/recording_difference.hpp"
 #include "ground/export/csv_table.hpp"
+#include "tests/ground/run_program.hpp"
 #include "tests/ground/sample_recording.hpp"
 
 namespace omma::ground {
@@ -39,21 +37,6 @@ class ExportCompare : public testing::Test {
     return lines;
   }
 
-  struct Run {
-    int exit_code = -1;
-    std::string output;
-  };
-  static Run omma(const std::string& arguments, const std::string& outputs = "2>&1") {
-    Run run;
-    std::FILE* pipe =
-        popen(("timeout 60 " OMMA_BINARY_DIR "/bin/omma " + arguments + " " + outputs).c_str(), "r");
-    if (pipe == nullptr) return run;
-    std::array<char, 512> part{};
-    while (std::fgets(part.data(), part.size(), pipe) != nullptr) run.output += part.data();
-    const int status = pclose(pipe);
-    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return run;
-  }
   /// A recording of `frames` attitudes; the one of frame `wrong` has another chi2.
   static void write_attitudes(const std::string& file, int frames, int wrong = -1) {
     telemetry::RecordingWriter recording(file, "testsat", false);
@@ -71,7 +54,7 @@ class ExportCompare : public testing::Test {
 
 TEST_F(ExportCompare, TopicIsATableWithUnitsInItsColumns) {
   test::write_recording(path("a.mcap"), 3);
-  const Run run = omma("export " + path("a.mcap") + " --out " + path("csv"));
+  const test::ProgramRun run = test::run_omma("export " + path("a.mcap") + " --out " + path("csv"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const std::vector<std::string> lines = lines_of(text_of(path("csv/attitude.csv")));
   ASSERT_EQ(lines.size(), 4U);
@@ -84,7 +67,7 @@ TEST_F(ExportCompare, TopicIsATableWithUnitsInItsColumns) {
 
 TEST_F(ExportCompare, EveryDotHasARowOfItsOwn) {
   test::write_recording(path("a.mcap"), 2);
-  ASSERT_EQ(omma("export " + path("a.mcap") + " --topic dots --out " + path("csv")).exit_code, 0);
+  ASSERT_EQ(test::run_omma("export " + path("a.mcap") + " --topic dots --out " + path("csv")).exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(path("csv/attitude.csv")));
   const std::vector<std::string> lines = lines_of(text_of(path("csv/dots.csv")));
   ASSERT_EQ(lines.size(), 7U);
@@ -143,7 +126,7 @@ TEST_F(ExportCompare, BytesCutOffAnywhereGiveNoRow) {
 TEST_F(ExportCompare, SameRecordingsAreTheSame) {
   test::write_recording(path("a.mcap"), 5);
   test::write_recording(path("b.mcap"), 5, {.chunk_bytes = 300});
-  const Run run = omma("compare " + path("a.mcap") + " " + path("b.mcap"));
+  const test::ProgramRun run = test::run_omma("compare " + path("a.mcap") + " " + path("b.mcap"));
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_NE(run.output.find("the recordings are the same"), std::string::npos) << run.output;
 }
@@ -160,13 +143,13 @@ TEST_F(ExportCompare, FirstDifferenceIsNamedByFrameAndField) {
     EXPECT_EQ(topic.different, 1U);
     EXPECT_EQ(topic.first_difference, "sample 5 (frame 4): chi2: 2 in the first, 1234.5 in the second");
   }
-  EXPECT_EQ(omma("compare --quiet " + path("a.mcap") + " " + path("b.mcap")).exit_code, 1);
+  EXPECT_EQ(test::run_omma("compare --quiet " + path("a.mcap") + " " + path("b.mcap")).exit_code, 1);
 }
 
 TEST_F(ExportCompare, MissingSamplesAreADifference) {
   write_attitudes(path("a.mcap"), 9);
   write_attitudes(path("b.mcap"), 8);
-  const Run run = omma("compare " + path("a.mcap") + " " + path("b.mcap"));
+  const test::ProgramRun run = test::run_omma("compare " + path("a.mcap") + " " + path("b.mcap"));
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_NE(run.output.find("9 samples in the first, 8 in the second"), std::string::npos) << run.output;
 }
@@ -182,14 +165,16 @@ TEST_F(ExportCompare, BadInputIsOneSentenceAndExitCodeTwo) {
          {"compare " + path("a.mcap") + " " + path(name), "compare " + path(name) + " " + path("a.mcap"),
           // Of export only what it says of the error.
           "export --out " + path("csv") + " " + path(name)}) {
-      const Run run = omma(arguments, arguments.starts_with("export") ? "2>&1 >/dev/null" : "2>&1");
+      const test::ProgramRun run =
+          test::run_omma(arguments, arguments.starts_with("export") ? "2>&1 >/dev/null" : "2>&1");
       EXPECT_EQ(run.exit_code, 2) << arguments << ": " << run.output;
       EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << arguments << ": " << run.output;
       EXPECT_NE(run.output.find(name), std::string::npos) << run.output;
     }
   }
-  EXPECT_EQ(omma("export " + path("a.mcap") + " --topic altitude --out " + path("csv")).exit_code, 2);
-  EXPECT_EQ(omma("export " + path("a.mcap") + " --out /dev/null/csv").exit_code, 2);
+  EXPECT_EQ(test::run_omma("export " + path("a.mcap") + " --topic altitude --out " + path("csv")).exit_code,
+            2);
+  EXPECT_EQ(test::run_omma("export " + path("a.mcap") + " --out /dev/null/csv").exit_code, 2);
 }
 
 }  // namespace

@@ -1,13 +1,10 @@
 // Telemetry over DDS on this machine alone, without multicast: published here, heard by the ground programs
 // in processes of their own.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <thread>
@@ -17,6 +14,7 @@
 #include "components/telemetry/samples.hpp"
 #include "ground/dds/subscriber.hpp"
 #include "ground/recording.hpp"
+#include "tests/ground/run_program.hpp"
 #include "tests/ground/sample_recording.hpp"
 
 namespace omma::ground {
@@ -81,22 +79,6 @@ class LiveTelemetry : public testing::Test {
   /// system takes those it hands out itself.
   static int domain() { return 1 + static_cast<int>(getpid() % 90); }
 
-  struct Run {
-    int exit_code = -1;
-    std::string output;
-  };
-  /// The ground program with these arguments, both its outputs together.
-  static Run omma(const std::string& arguments) {
-    const std::string command = "timeout 60 " OMMA_BINARY_DIR "/bin/omma " + arguments + " 2>&1";
-    Run run;
-    std::FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return run;
-    std::array<char, 512> part{};
-    while (std::fgets(part.data(), part.size(), pipe) != nullptr) run.output += part.data();
-    const int status = pclose(pipe);
-    run.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return run;
-  }
   static std::string in_domain() { return " --domain " + std::to_string(domain()); }
 };
 
@@ -134,7 +116,7 @@ TEST_F(LiveTelemetry, SubscriberFindsTheSpacecraftAndGetsTheBytesTheLogWouldHave
 
 TEST_F(LiveTelemetry, MonitorPrintsATable) {
   const Publisher publisher(domain());
-  const Run run = omma("monitor --once --wait 20" + in_domain());
+  const test::ProgramRun run = test::run_omma("monitor --once --wait 20" + in_domain());
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_NE(run.output.find("testsat"), std::string::npos) << run.output;
   EXPECT_NE(run.output.find("ATTITUDE"), std::string::npos) << run.output;
@@ -146,7 +128,7 @@ TEST_F(LiveTelemetry, RecordWritesWhatItHeard) {
   const std::string path = testing::TempDir() + "omma_live_" + std::to_string(getpid()) + ".mcap";
   {
     const Publisher publisher(domain());
-    const Run run = omma("record " + path + " --seconds 2" + in_domain());
+    const test::ProgramRun run = test::run_omma("record " + path + " --seconds 2" + in_domain());
     EXPECT_EQ(run.exit_code, 0) << run.output;
     EXPECT_NE(run.output.find("spacecraft testsat"), std::string::npos) << run.output;
   }
@@ -171,20 +153,21 @@ TEST_F(LiveTelemetry, RecordWritesWhatItHeard) {
 
 TEST_F(LiveTelemetry, SilenceIsSaidAndNoFileIsLeft) {
   const std::string path = testing::TempDir() + "omma_silence_" + std::to_string(getpid()) + ".mcap";
-  const Run record = omma("record " + path + " --seconds 0.3" + in_domain());
+  const test::ProgramRun record = test::run_omma("record " + path + " --seconds 0.3" + in_domain());
   EXPECT_EQ(record.exit_code, 1);
   EXPECT_NE(record.output.find("nothing was heard"), std::string::npos) << record.output;
   EXPECT_FALSE(std::filesystem::exists(path));
-  const Run monitor = omma("monitor --once --wait 0.3" + in_domain());
+  const test::ProgramRun monitor = test::run_omma("monitor --once --wait 0.3" + in_domain());
   EXPECT_EQ(monitor.exit_code, 1);
   EXPECT_NE(monitor.output.find("nothing was heard"), std::string::npos) << monitor.output;
 }
 
 TEST_F(LiveTelemetry, WrongArgumentsAreRefused) {
-  EXPECT_EQ(omma("record /no/such/folder/a.mcap --spacecraft testsat --seconds 0.1" + in_domain()).exit_code,
+  EXPECT_EQ(test::run_omma("record /no/such/folder/a.mcap --spacecraft testsat --seconds 0.1" + in_domain())
+                .exit_code,
             2);
-  EXPECT_EQ(omma("monitor --once --domain 900").exit_code, 2);
-  EXPECT_EQ(omma("record").exit_code, 2);
+  EXPECT_EQ(test::run_omma("monitor --once --domain 900").exit_code, 2);
+  EXPECT_EQ(test::run_omma("record").exit_code, 2);
 }
 
 }  // namespace

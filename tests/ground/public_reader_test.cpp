@@ -1,15 +1,12 @@
 // Our recordings, read by software that is not ours: the public MCAP reader and IDL decoder from npm. Needs
 // node, and the modules in <build>/node_modules or a network to fetch them once.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 
+#include "tests/ground/run_program.hpp"
 #include "tests/ground/sample_recording.hpp"
 
 namespace omma::ground {
@@ -18,36 +15,20 @@ namespace {
 constexpr const char* kModules =
     "@mcap/core@2.2.2 fzstd@0.1.1 @foxglove/omgidl-parser@1 @foxglove/omgidl-serialization@1";
 
-struct Run {
-  int exit_code = -1;
-  std::string output;
-};
-
-Run run(const std::string& command) {
-  Run result;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return result;
-  std::array<char, 512> part{};
-  while (std::fgets(part.data(), part.size(), pipe) != nullptr) result.output += part.data();
-  const int status = pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
-}
-
 TEST(PublicReader, ReadsWhatWeWriteAndChecksItsSums) {
   const std::filesystem::path folder = OMMA_BINARY_DIR;
-  if (run("node --version").exit_code != 0) GTEST_SKIP() << "node is not installed";
+  if (test::run_program("node --version").exit_code != 0) GTEST_SKIP() << "node is not installed";
   if (!std::filesystem::exists(folder / "node_modules/@foxglove/omgidl-serialization")) {
-    const Run install =
-        run("cd " + folder.string() + " && timeout 60 npm install --no-save --no-audit " + kModules);
+    const test::ProgramRun install = test::run_program(
+        "cd " + folder.string() + " && timeout 60 npm install --no-save --no-audit " + kModules);
     if (install.exit_code != 0)
       GTEST_SKIP() << "the public reader's modules are not to be had: " << install.output;
   }
   for (const int compression : {0, 1}) {
     const std::string path = testing::TempDir() + "omma_public_reader_" + std::to_string(getpid()) + ".mcap";
     test::write_recording(path, 30, {.chunk_bytes = 2000, .compression_level = compression});
-    const Run read = run("node " OMMA_SOURCE_DIR "/tests/ground/read_with_public_reader.mjs " +
-                         folder.string() + " " + path);
+    const test::ProgramRun read = test::run_program(
+        "node " OMMA_SOURCE_DIR "/tests/ground/read_with_public_reader.mjs " + folder.string() + " " + path);
     std::filesystem::remove(path);
     EXPECT_EQ(read.exit_code, 0) << read.output;
     EXPECT_NE(

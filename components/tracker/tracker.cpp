@@ -39,7 +39,7 @@ void Tracker::step(const Tick& /*tick*/) noexcept {
   seen_.build(*dots, rig_, parameters_.floor_px);
 
   // Tracked bodies first: where one stands no star is to be looked for.
-  std::array<HiddenCone, limits::kCameras * limits::kTargetBodies> cones;
+  std::array<HiddenCone, std::size_t{limits::kCameras} * limits::kTargetBodies> cones;
   std::size_t cone_count = 0;
   track_bodies(cones, cone_count);
   const std::span<const HiddenCone> hidden(cones.data(), cone_count);

@@ -47,9 +47,9 @@ class SolveInput : public ::testing::Test {
   void write_image(const std::string& name, Grey&& grey, int width = kWidth, int height = kHeight) const {
     Image image;
     image.resize(width, height, PixelFormat::kGrey8);
+    auto pixel = image.pixels.begin();
     for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u)
-        image.pixels[static_cast<std::size_t>(v * width + u)] = static_cast<std::byte>(grey(u, v));
+      for (int u = 0; u < width; ++u) *pixel++ = static_cast<std::byte>(grey(u, v));
     }
     write_png(folder_ / name, image.view());
   }

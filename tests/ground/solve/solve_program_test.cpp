@@ -130,7 +130,7 @@ TEST(SolveProgram, PrintsTextForAReaderAndAPictureOfWhatItFound) {
   OMMA_NEEDS(all);
   const OperatorsFolder folder;
   const Told run = folder.omma("solve " + quoted(all[0].images[0]) + " --lens " + quoted(all[0].lenses[0]) +
-                              " --annotate found.png");
+                               " --annotate found.png");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* part :
        {"RA", "Dec", "roll", "rig_from_j2000", "1-sigma", "stars used", "residual rms", "time"})

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <random>
 #include <vector>
 
 #include "ground/solve/photograph_solver.hpp"
@@ -108,6 +111,40 @@ TEST(Photographs, TreesTextAndAMeteorBrighterThanMostStarsDoNotKeepTheSkyFromBei
   const auto solution = solved(all[0]);
   expect_right(all[0], solution);
   EXPECT_GE(solution.stars_used, 150);
+}
+
+// The rendered images have no noise at all: a sensor's is added, background and photons, and they still must
+// be right. (The draws are the same on every machine; only their sum of uniform numbers is used.)
+TEST(Photographs, RigsWithSensorNoiseAreSolvedJointlyAndAlone) {
+  const auto all = shared(PhotographGroup::kRigs);
+  OMMA_NEEDS(all);
+  std::mt19937 random(1);
+  const auto gauss = [&] {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += double(random()) / 4294967296.0;
+    return sum;
+  };
+  for (const Photograph& photograph : all) {
+    std::vector<Image> images;
+    for (const auto& file : photograph.images) images.push_back(read_image(file));
+    for (Image& image : images) {
+      for (std::byte& pixel : image.pixels) {
+        const double grey = 20 + std::to_integer<int>(pixel);
+        const double noisy = grey + std::sqrt(4 + 0.2 * grey) * gauss();
+        pixel = static_cast<std::byte>(std::clamp(noisy, 0.0, 255.0));
+      }
+    }
+    ground::PhotographSolver solver(photograph.rig, {});
+    expect_right(photograph, solver.solve({images[0].view(), images[1].view(), images[2].view()}));
+    for (std::size_t c = 0; c < images.size(); ++c) {
+      std::vector<ImageView> alone(images.size());
+      alone[c] = images[c].view();
+      Photograph of_one = photograph;
+      of_one.name += ", camera " + std::to_string(c) + " alone";
+      of_one.tolerance_arcsec *= 3;
+      expect_right(of_one, solver.solve(alone));
+    }
+  }
 }
 
 // A mirror image of the sky is no sky: named, not solved.

@@ -10,7 +10,7 @@ const std::array<Topic, kTopicCount>& topics() noexcept {
       {TopicId::kAttitude, "attitude", "omma::Attitude", &omma_Attitude_desc, Delivery::kStream, 1, 2000,
        false},
       {TopicId::kRelativePose, "relative_pose", "omma::RelativePose", &omma_RelativePose_desc,
-       Delivery::kStream, 1, 0, false},
+       Delivery::kStream, 1, 2000, false},
       {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, 3000, false},
       {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, 3000, true},
       {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, 0, false},

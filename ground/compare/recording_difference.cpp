@@ -96,6 +96,7 @@ std::vector<TopicComparison> compare_recordings(const std::string& path_a, const
     for (const auto& [id, channel] : reader->channels()) topics.insert(last_part(channel.topic));
   }
   std::vector<TopicComparison> result;
+  result.reserve(topics.size());
   for (const std::string& topic : topics) result.push_back(compare_topic(reader_a, reader_b, topic));
   return result;
 }

@@ -162,6 +162,25 @@ TEST_F(LiveTelemetry, SilenceIsSaidAndNoFileIsLeft) {
   EXPECT_NE(monitor.output.find("nothing was heard"), std::string::npos) << monitor.output;
 }
 
+TEST_F(LiveTelemetry, DdsThatIsNotToBeHadIsASentence) {
+  const std::string good = std::getenv("CYCLONEDDS_URI");
+  setenv("CYCLONEDDS_URI",
+         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/></Interfaces>"
+         "</General></Domain></CycloneDDS>",
+         1);
+  try {
+    // A domain nobody else has: one that this process already has open would be shared.
+    const telemetry::DdsSink sink("testsat", 100 + domain());
+    ADD_FAILURE() << "there is no such interface";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("DDS: cannot create a participant"), std::string::npos);
+  }
+  const test::ProgramRun run = test::run_omma("monitor --once" + in_domain());
+  EXPECT_EQ(run.exit_code, 2) << run.output;
+  EXPECT_NE(run.output.find("DDS: cannot create a participant"), std::string::npos) << run.output;
+  setenv("CYCLONEDDS_URI", good.c_str(), 1);
+}
+
 TEST_F(LiveTelemetry, WrongArgumentsAreRefused) {
   EXPECT_EQ(test::run_omma("record /no/such/folder/a.mcap --spacecraft testsat --seconds 0.1" + in_domain())
                 .exit_code,

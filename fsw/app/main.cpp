@@ -110,7 +110,11 @@ int main(int argc, char** argv) {
   app.add_flag("--real-time", arguments.real_time,
                "keep the mission's frame rate; default: as fast as possible, the same every time");
   app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
   try {
     return fly(arguments);
   } catch (const std::exception& error) {

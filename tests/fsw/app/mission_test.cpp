@@ -1,0 +1,142 @@
+// A mission file is read whole or refused with one sentence: file, line, field, expected, found.
+#include "fsw/app/mission.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "fsw/kernel/input_error.hpp"
+#include "hal/recorded/image_file.hpp"
+
+namespace omma {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A copy of config/ whose mission a test may spoil.
+class MissionFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::path(OMMA_BINARY_DIR) / "tests" /
+              (std::string("mission_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::remove_all(folder_);
+    std::filesystem::copy(std::filesystem::path(OMMA_SOURCE_DIR) / "config", folder_,
+                          std::filesystem::copy_options::recursive);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file() const { return folder_ / "demo.toml"; }
+
+  void replace(const std::string& name, const std::string& from, const std::string& to) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_ / name).rdbuf();
+    std::string content = text.str();
+    const std::size_t at = content.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    content.replace(at, from.size(), to);
+    std::ofstream(folder_ / name) << content;
+  }
+
+  std::string message() const {
+    try {
+      read_mission(file());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(MissionFile, OfTheDemoIsRead) {
+  const Mission mission = read_mission(file());
+  EXPECT_EQ(mission.spacecraft.view(), "demo");
+  ASSERT_EQ(mission.rig.cameras.size(), 3U);
+  ASSERT_EQ(mission.cameras.size(), 3U);
+  EXPECT_EQ(mission.cameras[0].bits, 12);
+  ASSERT_EQ(mission.bodies.size(), 1U);
+  EXPECT_EQ(mission.bodies[0].targets.size(), 25U);
+}
+
+TEST_F(MissionFile, ThatIsMissingIsNamed) {
+  std::filesystem::remove(file());
+  EXPECT_THAT(message(), HasSubstr("demo.toml: "));
+}
+
+TEST_F(MissionFile, WithAnUnknownKeyIsRefused) {
+  replace("demo.toml", "frame_rate_hz", "frames_a_second = 3\nframe_rate_hz");
+  EXPECT_THAT(message(), HasSubstr("demo.toml:5: frames_a_second: expected "));
+}
+
+TEST_F(MissionFile, WithACameraTheRigDoesNotHaveIsRefused) {
+  replace("demo.toml", "name = \"cam2\"", "name = \"cam9\"");
+  EXPECT_THAT(message(), HasSubstr("camera[2].name: expected a camera of the rig dissertation, found cam9"));
+}
+
+TEST_F(MissionFile, WithoutOneOfTheRigsCamerasIsRefused) {
+  replace("demo.toml", "[[camera]]\nname = \"cam2\"\ndriver = \"recorded\"\nbits = 8\n", "[[body]]\n#");
+  EXPECT_NE(message(), "no error");
+}
+
+TEST_F(MissionFile, WithACameraTwiceIsRefused) {
+  replace("demo.toml", "name = \"cam2\"", "name = \"cam0\"");
+  EXPECT_THAT(message(), HasSubstr("camera[2].name: expected each camera once, found cam0 again"));
+}
+
+TEST_F(MissionFile, WithAnEpochThatIsNoTimeIsRefused) {
+  replace("demo.toml", "epoch = \"2026", "epoch = \"spring 2026");
+  EXPECT_THAT(message(),
+              HasSubstr("epoch: expected a UTC time like 2026-03-20T12:00:00Z, found spring 2026"));
+}
+
+TEST_F(MissionFile, WithAnUnknownDriverIsRefused) {
+  replace("demo.toml", "driver = \"recorded\"", "driver = \"telepathy\"");
+  EXPECT_THAT(message(), HasSubstr("camera[0].driver: expected \"recorded\", found telepathy"));
+}
+
+TEST_F(MissionFile, NamesTheTargetFileAndLineOfADuplicateTarget) {
+  replace("targets/docking_card.tsv", "T02", "T01");
+  EXPECT_THAT(message(), HasSubstr("docking_card.tsv:2: "));
+}
+
+TEST_F(MissionFile, NamesTheTargetFileAndLineOfAnEmptyTargetId) {
+  replace("targets/docking_card.tsv", "T03", "");
+  EXPECT_THAT(message(), HasSubstr("docking_card.tsv:3: "));
+}
+
+TEST_F(MissionFile, NamesTheRigFileOfALensThatIsMissing) {
+  replace("rigs/dissertation.toml", "hdr1_f3.0mm_10um_768x576.txt", "lost.txt");
+  EXPECT_THAT(message(), HasSubstr("lost.txt"));
+}
+
+TEST_F(MissionFile, ThatIsWrongEndsTheFlightProgramWithTwo) {
+  replace("demo.toml", "bits = 12", "bits = 99");
+  const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() + " 2> " +
+                              (folder_ / "said").string();
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  std::ostringstream said;
+  said << std::ifstream(folder_ / "said").rdbuf();
+  EXPECT_THAT(said.str(), HasSubstr("camera[0].bits: expected "));
+}
+
+TEST_F(MissionFile, WithFramesOfAnotherSizeEndsTheFlightProgramWithTwo) {
+  const std::filesystem::path frames = folder_ / "frames";
+  Image small;
+  small.resize(3, 2, PixelFormat::kGrey8);
+  for (const char* camera : {"hdr1", "cam0", "cam2"}) {
+    std::filesystem::create_directories(frames / camera);
+    write_png(frames / camera / (std::string(camera) + "_000000.png"), small.view());
+  }
+  const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() +
+                              " --frames " + frames.string() + " 2> " + (folder_ / "said").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+}
+
+}  // namespace
+}  // namespace omma

@@ -9,6 +9,7 @@
 #include "ground/export/export.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
+#include "ground/report/report.hpp"
 #include "ground/simulate/simulate.hpp"
 #include "ground/solve/solve.hpp"
 
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   omma::ground::CommandContext context;
   omma::ground::add_solve(app, context);
+  omma::ground::add_report(app, context);
   omma::ground::add_simulate(app, context);
   omma::ground::add_ideal_lens(app, context);
   omma::ground::add_monitor(app, context);

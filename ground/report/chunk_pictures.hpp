@@ -1,0 +1,39 @@
+// Puts the pictures together again that came down in chunks of rows.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "components/telemetry/topics.hpp"
+#include "ground/draw/canvas.hpp"
+
+namespace omma::ground {
+
+struct ChunkPicture {
+  omma_ImageKind kind = omma_IMAGE_PANORAMA_J2000;
+  GreyPicture picture;            ///< rows that did not arrive are 0
+  std::vector<bool> rows;         ///< which arrived
+  std::uint64_t first_frame = 0;  ///< frame sets its rows were taken from
+  std::uint64_t last_frame = 0;
+  bool complete() const;
+};
+
+class ChunkPictures {
+ public:
+  /// A chunk that contradicts itself (its rows and its bytes) or its picture (another size) is left out and
+  /// counted.
+  void take(const omma_ImageChunk& chunk);
+
+  /// By image number, complete or not.
+  const std::map<std::uint32_t, ChunkPicture>& pictures() const { return pictures_; }
+  std::uint64_t refused() const { return refused_; }
+  /// The last complete picture of a kind; null where there is none.
+  const ChunkPicture* last_complete(omma_ImageKind kind) const;
+
+ private:
+  std::map<std::uint32_t, ChunkPicture> pictures_;
+  std::uint64_t refused_ = 0;
+};
+
+}  // namespace omma::ground

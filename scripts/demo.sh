@@ -9,11 +9,13 @@ say "Rendering the demo's frames: the rig turns under the real sky while a docki
 $omma simulate config/demo_scenario.toml --out $out/frames
 
 say "omma-fsw replays them; omma monitor listens"
-$omma monitor --seconds 6 >$out/monitor.txt 2>&1 &
+$omma monitor --seconds 6 --plain >$out/monitor.txt 2>&1 &
 monitor=$!
 build/release/bin/omma-fsw config/demo.toml --frames $out/frames --log $out/demo.mcap
 wait $monitor || true
-cat $out/monitor.txt
+# The last table it printed while samples were coming in.
+awk '/frame sets\/s/ { if (table != "" && table !~ /STALE/) last = table; table = "" } { table = table $0 "\n" }
+     END { if (table !~ /STALE/) last = table; printf "%s", last }' $out/monitor.txt
 
 say "What was found, beside the truth"
 $omma report $out/demo.mcap --frames $out/frames --mission config/demo.toml --output $out/report

@@ -56,8 +56,8 @@ std::span<const SearchDot> SearchOrder::arrange(std::span<const RigDot> dots, co
       for (std::size_t m = from; m < n; ++m)
         brighter += dots[by_camera_[m]].ray.dot(dot.ray) > cosine ? 1 : 0;
       const double spread_place = 50.0 * brighter + 50.0 * place / double(to - from);
-      keys_.push_back({static_cast<float>(spread_place / fraction), by_camera_[n],
-                       star_limit(place, fraction, stars)});
+      keys_.push_back(
+          {static_cast<float>(spread_place / fraction), by_camera_[n], star_limit(place, fraction, stars)});
     }
     from = to;
   }

@@ -23,7 +23,7 @@ main{max-width:1360px;margin:0 auto;padding:28px 24px 60px}h1{font-size:26px;mar
 p.lead{color:var(--soft);margin:4px 0 20px}.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:12px}
 .figure{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px}
 .figure b{display:block;font-size:25px;font-weight:600;letter-spacing:-.01em}.figure span{color:var(--soft);font-size:13px}
-.charts{display:grid;grid-template-columns:repeat(auto-fit,minmax(340px,1fr));gap:14px}
+.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:14px}
 .charts svg,img{width:100%;background:var(--card);border:1px solid var(--line);border-radius:8px}.charts svg{padding:8px}
 svg .title{font:600 13px system-ui;fill:var(--ink)}svg .unit,svg .tick{font:11px system-ui;fill:var(--soft);font-weight:400}
 svg .grid{stroke:var(--line)}svg .band{fill:var(--band)}svg .in{fill:var(--a)}svg .out{fill:var(--out)}

@@ -21,6 +21,21 @@ constexpr Colour kName{1.0, 0.92, 0.7, 1.0};
 constexpr double kNamedStar = 2.2;  // V: fainter stars stay without a name in the panorama
 constexpr int kNamedDots = 25;      // stars named in a camera's frame
 
+/// Whether any camera saw the sky there: unseen parts of a panorama are 0.
+bool seen(const GreyPicture& panorama, const Eigen::Vector2d& at) {
+  constexpr int kReach = 2;
+  const int u = static_cast<int>(at.x());
+  const int v = static_cast<int>(at.y());
+  for (int row = std::max(0, v - kReach); row <= std::min(panorama.height - 1, v + kReach); ++row) {
+    for (int column = std::max(0, u - kReach); column <= std::min(panorama.width - 1, u + kReach); ++column) {
+      const std::size_t index = static_cast<std::size_t>(row) * static_cast<std::size_t>(panorama.width) +
+                                static_cast<std::size_t>(column);
+      if (panorama.pixels[index] > 0) return true;
+    }
+  }
+  return false;
+}
+
 struct Tally {
   int stars = 0;
   int targets = 0;
@@ -68,6 +83,7 @@ Canvas panorama_picture(const ChunkPicture& panorama, const StarCatalogue& catal
   for (const SkyStar& star : catalogue.stars()) {
     if (star.magnitude > kNamedStar) continue;
     const Eigen::Vector2d at = panorama_pixel(star.direction, width);
+    if (!seen(panorama.picture, at)) continue;
     canvas.circle(at, 5, kStar, 1);
     labels.place(at, 6, star_text(star.hr), 12, kName);
   }

@@ -150,6 +150,7 @@ bool DotPatches::form(DotFoursome& foursome) const noexcept {
   std::swap(dots[left_out], dots[3]);
 
   DotPatch& patch = foursome.patch;
+  patch.at = at;
   patch.u = at[1] - at[0];
   patch.v = at[2] - at[0];
   const double sigma = dots_[dots[3]].sigma;
@@ -161,9 +162,9 @@ bool DotPatches::form(DotFoursome& foursome) const noexcept {
   patch.beta = (patch.u.x() * d.y() - patch.u.y() * d.x()) / area;
   const double rest = 1 - patch.alpha - patch.beta;
   foursome.spread = std::sqrt(1 + patch.alpha * patch.alpha + patch.beta * patch.beta + rest * rest);
-  const double noise = gate_ * sigma * foursome.spread / std::abs(area);
-  patch.alpha_noise = noise * patch.v.norm();
-  patch.beta_noise = noise * patch.u.norm();
+  patch.noise = gate_ * sigma * foursome.spread;
+  patch.alpha_noise = patch.noise / std::abs(area) * patch.v.norm();
+  patch.beta_noise = patch.noise / std::abs(area) * patch.u.norm();
   return true;
 }
 

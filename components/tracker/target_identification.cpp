@@ -127,7 +127,7 @@ bool TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
   bool has_best = false, has_second = false;
   for (const Survivor& survivor : survivors) {
     ++result.verified;
-    if (!verification.complete(survivor.pose, candidate)) continue;
+    if (!verification.complete(survivor.pose, least_explained, candidate)) continue;
     if (candidate.log_chance > options.largest_log_chance || candidate.pairs.size() < least_explained)
       continue;
     if (has_best && same_labelling(candidate, best)) {
@@ -145,6 +145,7 @@ bool TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
     }
   }
   if (!has_best) return false;
+  verification.try_other_minimum(least_explained, best);
   const bool ambiguous = has_second && second.log_chance - best.log_chance < kLabellingMargin;
   result.status =
       ambiguous ? TargetIdentificationStatus::kAmbiguous : TargetIdentificationStatus::kIdentified;

@@ -11,8 +11,10 @@ constexpr std::size_t kNeighbours = 10;   // of a target, that share its patches
 constexpr double kThinnest = 0.02;        // thickness over width below which a body is a plane
 constexpr double kFlattestTriple = 0.08;  // sine of the angle between a triple's edges
 constexpr double kFarthestFourth =
-    1.4;                         // dots choose the largest of their triangles: coordinates stay within 1
-constexpr double kSlack = 0.01;  // added to each coordinate's tolerance
+    1.4;                             // dots choose the largest of their triangles: coordinates stay within 1
+constexpr int kAlignmentRounds = 4;  // parallel projection brought to perspective
+constexpr double kAlignmentSlack = 0.03;  // what they leave, part of the patch's size
+constexpr double kSlack = 0.01;           // added to each coordinate's tolerance
 
 std::vector<std::uint8_t> neighbours_of(const TargetBody& body, std::size_t target) {
   std::vector<std::uint8_t> others;
@@ -112,45 +114,49 @@ std::size_t TargetPatches::matching_flat(const DotPatch& patch, std::span<PatchL
   return count;
 }
 
+TargetPatches::Alignment TargetPatches::aligned(const DotPatch& patch, const Triple& triple,
+                                                double sign) noexcept {
+  // The first of the three is at depth 1; u, v are the edges as parallel projection would show them.
+  Alignment found{patch.u, patch.v, 0, 0, Eigen::Vector3d::Zero()};
+  const double g11 = triple.g11, g12 = triple.g12, g22 = triple.g22;
+  const double gram = g11 * g22 - g12 * g12;
+  double scale2 = 0;
+  for (int round = 0; round < kAlignmentRounds; ++round) {
+    found.u = patch.at[1] * (1 + found.z1) - patch.at[0];
+    found.v = patch.at[2] * (1 + found.z2) - patch.at[0];
+    const double uu = found.u.squaredNorm(), vv = found.v.squaredNorm(), uv = found.u.dot(found.v);
+    // Squared scale S: (S g11 − uu)(S g22 − vv) = (S g12 − uv)², the larger root; then the depths of the
+    // edges.
+    const double b = 0.5 * (g11 * vv + g22 * uu - 2 * g12 * uv);
+    const double discriminant = std::max(0.0, b * b - gram * (uu * vv - uv * uv));
+    scale2 = (b + std::sqrt(discriminant)) / gram;
+    found.z1 = sign * std::sqrt(std::max(0.0, scale2 * g11 - uu));
+    found.z2 = sign * std::sqrt(std::max(0.0, scale2 * g22 - vv));
+    if (scale2 * g12 - uv < 0) found.z2 = -found.z2;
+  }
+  const double k = 1.0 / (std::sqrt(scale2) * triple.area);
+  found.normal = {(found.u.y() * found.z2 - found.z1 * found.v.y()) * k,
+                  (found.z1 * found.v.x() - found.u.x() * found.z2) * k,
+                  (found.u.x() * found.v.y() - found.u.y() * found.v.x()) * k};
+  return found;
+}
+
 std::size_t TargetPatches::matching_solid(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
-  double alpha_reach, beta_reach;
-  perspective_reach(patch, tilt_factor_, alpha_reach, beta_reach);
-  const Eigen::Vector2d &u = patch.u, &v = patch.v;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
-  const double area = u.x() * v.y() - u.y() * v.x();
+  const double size = std::max(patch.u.norm(), patch.v.norm());
+  const double reach = patch.noise + kAlignmentSlack * size;
   std::size_t count = 0;
   for (const Triple& triple : triples_) {
-    // Squared scale S of parallel projection: (S g11 − uu)(S g22 − vv) = (S g12 − uv)², the larger root.
-    const double g11 = triple.g11, g12 = triple.g12, g22 = triple.g22;
-    const double gram = g11 * g22 - g12 * g12;
-    const double b = 0.5 * (g11 * vv + g22 * uu - 2 * g12 * uv);
-    const double discriminant = std::max(0.0, b * b - gram * area * area);
-    const double scale2 = (b + std::sqrt(discriminant)) / gram;
-    const double scale = std::sqrt(scale2);
-    // Depths of the two edges; their common sign is free.
-    double z1 = std::sqrt(std::max(0.0, scale2 * g11 - uu));
-    double z2 = std::sqrt(std::max(0.0, scale2 * g22 - vv));
-    if (scale2 * g12 - uv < 0) z2 = -z2;
-    // The normal of the three, one metre long, in affine coordinates of the image.
-    const double k = 1.0 / (scale * triple.area);
-    const Eigen::Vector2d normal((u.y() * z2 - z1 * v.y()) * k, (z1 * v.x() - u.x() * z2) * k);
-    const double normal_alpha = (normal.x() * v.y() - normal.y() * v.x()) / area;
-    const double normal_beta = (u.x() * normal.y() - u.y() * normal.x()) / area;
-    for (std::uint32_t f = triple.first; f < triple.first + triple.count; ++f) {
-      const Fourth& fourth = fourths_[f];
-      // Seen in perspective, what stands out of the plane of the three shrinks or grows with its depth.
-      const double depth = scale * std::abs(fourth.gamma);
-      const double alpha_tolerance =
-          alpha_reach + patch.alpha_noise + kSlack + depth * (std::abs(patch.alpha) + std::abs(normal_alpha));
-      const double beta_tolerance =
-          beta_reach + patch.beta_noise + kSlack + depth * (std::abs(patch.beta) + std::abs(normal_beta));
-      for (const double sign : {1.0, -1.0}) {
-        const double off_alpha = fourth.alpha + sign * fourth.gamma * normal_alpha - patch.alpha;
-        const double off_beta = fourth.beta + sign * fourth.gamma * normal_beta - patch.beta;
-        if (!(std::abs(off_alpha) <= alpha_tolerance && std::abs(off_beta) <= beta_tolerance)) continue;
+    for (const double sign : {1.0, -1.0}) {
+      const Alignment found = aligned(patch, triple, sign);
+      for (std::uint32_t f = triple.first; f < triple.first + triple.count; ++f) {
+        const Fourth& fourth = fourths_[f];
+        const double alpha = fourth.alpha, beta = fourth.beta, gamma = fourth.gamma;
+        const double depth = 1 + alpha * found.z1 + beta * found.z2 + gamma * found.normal.z();
+        const Eigen::Vector2d at =
+            patch.at[0] + alpha * found.u + beta * found.v + gamma * found.normal.head<2>();
+        if (!((at - depth * patch.at[3]).squaredNorm() <= reach * reach * depth * depth)) continue;
         if (count == out.size()) return count;
         out[count++] = {triple.targets[0], triple.targets[1], triple.targets[2], fourth.target};
-        break;
       }
     }
   }

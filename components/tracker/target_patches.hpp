@@ -18,10 +18,12 @@ namespace omma {
 
 /// Four dots of one camera on the plane that touches the sphere of bearings at their middle [rad].
 struct DotPatch {
-  Eigen::Vector2d u;  ///< second dot minus first
-  Eigen::Vector2d v;  ///< third dot minus first
-  double alpha = 0;   ///< fourth = first + α u + β v
+  std::array<Eigen::Vector2d, 4> at;  ///< the four dots
+  Eigen::Vector2d u;                  ///< second dot minus first
+  Eigen::Vector2d v;                  ///< third dot minus first
+  double alpha = 0;                   ///< fourth = first + α u + β v
   double beta = 0;
+  double noise = 0;  ///< what the dots' noise may do to the fourth against the three (at the gate) [rad]
   double alpha_noise = 0;  ///< what the dots' noise may do to α and β (at the gate)
   double beta_noise = 0;
 };
@@ -51,12 +53,20 @@ class TargetPatches {
     std::uint32_t count;
   };
   struct Fourth {
-    float alpha, beta,
-        gamma;  ///< fourth = first + α e1 + β e2 + γ n, n the unit normal of the three [γ in m]
+    float alpha, beta, gamma;  ///< fourth = first + α e1 + β e2 + γ n, n their unit normal, γ in m
     std::uint32_t triple;
     std::uint8_t target;
   };
 
+  /// How three targets lie in space where three dots show them: edges and unit normal (one metre) at the
+  /// scale of the image with the first of them at depth 1.
+  struct Alignment {
+    Eigen::Vector2d u, v;
+    double z1, z2;
+    Eigen::Vector3d normal;
+  };
+
+  static Alignment aligned(const DotPatch& patch, const Triple& triple, double sign) noexcept;
   void add_triple(const TargetBody& body, std::span<const std::uint8_t> neighbours, std::uint8_t i,
                   std::uint8_t j, std::uint8_t k);
   std::size_t matching_flat(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;

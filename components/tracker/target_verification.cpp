@@ -1,8 +1,11 @@
 #include "components/tracker/target_verification.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+
+#include "components/estimation/flat_card.hpp"
 
 namespace omma {
 namespace {
@@ -56,6 +59,35 @@ void TargetVerification::look_at(const DotFoursome& foursome, std::span<const st
     near_at_[near_.size()] = plane_.transpose() * dots_[dot].ray / depth;
     near_.push_back(dot);
   }
+  fill_cells();
+}
+
+void TargetVerification::fill_cells() noexcept {
+  near_cell_.fill(0);
+  if (near_.empty()) return;
+  Eigen::Vector2d low = near_at_[0], high = near_at_[0];
+  for (std::size_t k = 1; k < near_.size(); ++k) {
+    low = low.cwiseMin(near_at_[k]);
+    high = high.cwiseMax(near_at_[k]);
+  }
+  // One empty cell around, so that every place within a cell of a dot is on the grid.
+  cell_side_ = std::max((high - low).maxCoeff() / (kCells - 2.5), 1e-9);
+  cell_corner_ = low - Eigen::Vector2d::Constant(cell_side_);
+  for (std::size_t k = 0; k < near_.size(); ++k) {
+    const Eigen::Vector2d cell = (near_at_[k] - cell_corner_) / cell_side_;
+    const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y());
+    for (int row = std::max(0, y - 1); row <= std::min(kCells - 1, y + 1); ++row)
+      for (int column = std::max(0, x - 1); column <= std::min(kCells - 1, x + 1); ++column)
+        near_cell_[static_cast<std::size_t>(row * kCells + column)] |= 1U << k;
+  }
+}
+
+std::uint32_t TargetVerification::near_dots(const Eigen::Vector2d& at, double reach) const noexcept {
+  if (!(reach <= cell_side_)) return near_.empty() ? 0 : ~0U >> (32 - near_.size());
+  const Eigen::Vector2d cell = (at - cell_corner_) / cell_side_;
+  if (!(cell.x() >= 0 && cell.x() < kCells && cell.y() >= 0 && cell.y() < kCells)) return 0;
+  return near_cell_[static_cast<std::size_t>(static_cast<int>(cell.y()) * kCells +
+                                             static_cast<int>(cell.x()))];
 }
 
 std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noexcept {
@@ -72,13 +104,14 @@ std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noex
     const Eigen::Vector2d affine = affine_from_plane_ * (at - patch_first_);
     const double rest = 1 - affine.x() - affine.y();
     const double spread = std::sqrt(1 + affine.squaredNorm() + rest * rest);
-    const double reach =
-        gate_ * patch_sigma_ * spread + kBend * (at.squaredNorm() * (affine.squaredNorm() > 2 ? 1 : 0));
+    const bool far_out = affine.squaredNorm() > 2;
+    const double reach = gate_ * patch_sigma_ * spread + (far_out ? kBend * at.squaredNorm() : 0);
     double nearest = reach * reach;
     std::size_t found = near_.size();
-    for (std::size_t k = 0; k < near_.size(); ++k) {
+    for (std::uint32_t bits = near_dots(at, reach) & ~taken; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
       const double distance = (near_at_[k] - at).squaredNorm();
-      if (distance < nearest && (taken >> k & 1U) == 0) {
+      if (distance < nearest) {
         nearest = distance;
         found = k;
       }
@@ -90,22 +123,34 @@ std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noex
   return pairs_.size();
 }
 
-bool TargetVerification::complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept {
+bool TargetVerification::complete(const Pose& rig_from_body, std::size_t least,
+                                  TargetLabelling& labelling) noexcept {
   if (explained_nearby(rig_from_body) < 4) return false;
   solve(rig_from_body, growing_, labelling.pose);
+  return grow(least, labelling);
+}
+
+void TargetVerification::try_other_minimum(std::size_t least, TargetLabelling& labelling) noexcept {
+  pairs_ = labelling.pairs;
+  solve(labelling.pose.rig_from_body, growing_, other_.pose);
+  const CardShape shape = card_shape(sights_, {});
+  if (!shape.flat) return;
+  solve(mirrored_pose(shape, labelling.pose.rig_from_body), growing_, other_.pose);
+  if (grow(least, other_) && other_.log_chance < labelling.log_chance) labelling = other_;
+}
+
+bool TargetVerification::grow(std::size_t least, TargetLabelling& labelling) noexcept {
   for (int round = 0; round < kGrowthRounds; ++round) {
     if (labelling.pose.status != SolveStatus::kSolved && labelling.pose.status != SolveStatus::kIterationCap)
       return false;
     const std::size_t before = pairs_.size();
     match_everywhere(labelling.pose);
-    if (pairs_.size() < 4) return false;
-    solve(labelling.pose.rig_from_body, growing_, labelling.pose);
+    if (pairs_.size() < least) return false;
     if (round > 0 && pairs_.size() == before) break;
+    solve(labelling.pose.rig_from_body, growing_, labelling.pose);
   }
-  match_everywhere(labelling.pose);
-  if (pairs_.size() < 4) return false;
   solve(labelling.pose.rig_from_body, final_, labelling.pose);
-  if (labelling.pose.pairs < 4 || labelling.pose.status == SolveStatus::kInconsistent) return false;
+  if (labelling.pose.pairs < least || labelling.pose.status == SolveStatus::kInconsistent) return false;
   labelling.pairs.clear();
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (used_[i]) labelling.pairs.push_back(pairs_[i]);

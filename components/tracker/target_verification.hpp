@@ -36,16 +36,25 @@ class TargetVerification {
   /// Targets explained by the dots around the patch.
   std::size_t explained_nearby(const Pose& rig_from_body) noexcept;
 
-  /// Carries the pose to all dots of all cameras. @return false where the pairs do not make a pose
-  bool complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept;
+  /// Carries the pose to all dots of all cameras.
+  /// @return false where the pairs do not make a pose, or explain fewer than `least` targets
+  bool complete(const Pose& rig_from_body, std::size_t least, TargetLabelling& labelling) noexcept;
+
+  /// A flat card's labelling begun in the wrong one of its two minima loses pairs there: grows it anew from
+  /// the mirror image of its pose and keeps the likelier of the two.
+  void try_other_minimum(std::size_t least, TargetLabelling& labelling) noexcept;
 
  private:
+  bool grow(std::size_t least, TargetLabelling& labelling) noexcept;
   /// The part of the sphere where the body is, for one camera.
   struct Region {
     Eigen::Vector3d direction;
     double radius = 0;  ///< [rad]
   };
 
+  void fill_cells() noexcept;
+  /// Bits of the near dots that can be within `reach` of a place in the patch's plane.
+  std::uint32_t near_dots(const Eigen::Vector2d& at, double reach) const noexcept;
   Region region(const Pose& pose, const Eigen::Vector3d& origin) const noexcept;
   void match_everywhere(const PoseSolution& pose) noexcept;
   void match_camera(const PoseSolution& pose, std::span<const RigDot> dots, std::size_t first) noexcept;
@@ -68,9 +77,15 @@ class TargetVerification {
   double patch_sigma_ = 0;
   StaticVector<std::uint16_t, DotPatches::kNeighbours + 1> near_;
   std::array<Eigen::Vector2d, DotPatches::kNeighbours + 1> near_at_{};
+  /// Which of the near dots are within one cell of a cell of the patch's plane (a bit each).
+  static constexpr int kCells = 16;
+  std::array<std::uint32_t, kCells * kCells> near_cell_{};
+  Eigen::Vector2d cell_corner_ = Eigen::Vector2d::Zero();
+  double cell_side_ = 1;
 
   StaticVector<TargetPair, limits::kTargetPairs> pairs_;
   StaticVector<Sight, limits::kTargetPairs> sights_;
+  TargetLabelling other_;
   std::array<std::uint8_t, limits::kTargetPairs> used_{};
   std::array<double, limits::kTargetPairs> distances_{};  ///< of pairs_, squared, in σ
   StaticVector<std::uint16_t, limits::kDotsPerCamera> in_region_;

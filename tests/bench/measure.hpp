@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
@@ -12,12 +11,20 @@
 
 namespace omma {
 
-/// Wall time of one call [µs].
+/// This thread's processor time [µs]: what others do on a busy machine is not measured (their use of the
+/// caches is).
+inline double thread_microseconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
+
+/// Processor time of one call [µs], some 0.3 µs for reading the clock included.
 template <class Call>
 double microseconds(Call&& call) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = thread_microseconds();
   call();
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  return thread_microseconds() - start;
 }
 
 /// Processor time of this thread for one call [µs]: what the call costs, whoever else is on the machine.

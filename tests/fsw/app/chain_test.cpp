@@ -141,7 +141,7 @@ TEST_F(Chain, FindsTheCardFromItsPatternWithAnHonestUncertainty) {
     EXPECT_LT(error.tail<3>().norm(), 0.01 * truth.translation.norm()) << "frame set " << f;
     EXPECT_LT(error.head<3>().norm(), 0.02) << "frame set " << f;
   }
-  EXPECT_GE(found, kFrameSets - 2);
+  EXPECT_EQ(found, kFrameSets);
   nees /= found;
   RecordProperty("nees", std::to_string(nees));
   EXPECT_LT(nees, 15);

@@ -2,7 +2,9 @@
 #include "ground/report/truth.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "fsw/kernel/input_error.hpp"
@@ -20,7 +22,7 @@ const std::string kLine =
 
 class Truth : public testing::Test {
  protected:
-  Truth() : file_(testing::TempDir() + "truth_test.jsonl") {}
+  Truth() : file_(testing::TempDir() + "truth_test_" + std::to_string(getpid()) + ".jsonl") {}
   ~Truth() override { std::filesystem::remove(file_); }
 
   std::vector<TruthFrame> read(const std::string& text) {

@@ -89,6 +89,11 @@ class Fit {
       if (keeps(i)) sum += squared_residual<kUnknowns>(sights_[i], rotation, pose.translation, squared_angle);
     return sum;
   }
+  /// Of the sights kept.
+  NormalEquations<kUnknowns> equations_at(const Pose& pose) const noexcept {
+    return normal_equations<kUnknowns>(sights_,
+                                       kept_ == sights_.size() ? std::span<const double>{} : weights(), pose);
+  }
   Descent<kUnknowns> descend_kept(const Pose& initial, double largest_cost) noexcept {
     return run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial, largest_cost);
   }
@@ -238,21 +243,59 @@ double prior_cost(const Pose& pose, const Pose& initial, const SolveOptions& opt
 }
 
 /// A minimum worse than the first by so many ambiguity margins is not followed to its end.
-constexpr double kContenderMargin = 10;
+constexpr double kContenderMargin = 5;
+
+Vector6d between(const Pose& from, const Pose& to) noexcept {
+  Vector6d apart;
+  apart << rotation_log(to.rotation * from.rotation.conjugate()), to.translation - from.translation;
+  return apart;
+}
+
+/// A pose this many σ away, by the covariance, is not to be expected.
+constexpr double kFarInSigmas = 5.0;
+
+/// The two minima of a card seen nearly frontally melt into one long, bent valley that the covariance at its
+/// lowest point does not show: true where a pose far along it is hardly less likely.
+bool in_one_valley(Fit<kPoseUnknowns>& fit, const CardShape& shape, const Pose& mirrored,
+                   const SolveOptions& options) noexcept {
+  const Pose first = fit.descent().pose;
+  const Matrix6d& information = fit.descent().information;
+  const Eigen::Vector3d centre = first * shape.centroid;
+  const Eigen::Vector3d axis = between(first, mirrored).head<3>().stableNormalized();
+  const double limit = fit.chi2() + options.ambiguity_margin;
+  for (const double part : {0.25, 0.5, 0.75, 1.0}) {
+    Pose along;
+    along.rotation = first.rotation.slerp(part, mirrored.rotation);
+    along.translation = centre - along.rotation * shape.centroid;
+    // To the valley's floor: the best step that does not turn about the axis along which it was entered.
+    NormalEquations<kPoseUnknowns> here = fit.equations_at(along);
+    here.information.topLeftCorner<3, 3>() +=
+        1e3 * information.diagonal().maxCoeff() * axis * axis.transpose();
+    Vector6d step;
+    if (!damped_step<kPoseUnknowns>(here, 0, step)) continue;
+    const Pose floor = moved<kPoseUnknowns>(along, step);
+    const Vector6d apart = between(first, floor);
+    if (apart.dot(information * apart) > kFarInSigmas * kFarInSigmas && fit.chi2_at(floor) < limit)
+      return true;
+  }
+  return false;
+}
 
 /// Solves in the mirror image of a flat card's pose as well; keeps the likelier minimum in `fit`.
 void follow_second_minimum(const CardShape& shape, const Pose& initial, const SolveOptions& options,
                            Fit<kPoseUnknowns>& fit, PoseSolution& solution) noexcept {
   const Pose first = fit.descent().pose;
+  const Pose mirrored = mirrored_pose(shape, first);
   const double first_chi2 = fit.chi2();
   const double first_score = first_chi2 + prior_cost(first, initial, options);
-  const Descent<kPoseUnknowns> other = fit.descend_kept(
-      mirrored_pose(shape, first), first_score + kContenderMargin * options.ambiguity_margin);
+  const Descent<kPoseUnknowns> other =
+      fit.descend_kept(mirrored, first_score + kContenderMargin * options.ambiguity_margin);
   if (other.singular || other.gave_up) return;
-  Vector6d apart;
-  apart << rotation_log(other.pose.rotation * first.rotation.conjugate()),
-      other.pose.translation - first.translation;
-  if (apart.dot(fit.descent().information * apart) < 1e-3) return;  // both descents met: one minimum
+  const Vector6d apart = between(first, other.pose);
+  if (apart.dot(fit.descent().information * apart) < 1e-3) {  // both descents met: one minimum
+    solution.ambiguous = in_one_valley(fit, shape, mirrored, options);
+    return;
+  }
   const double other_chi2 = fit.chi2_at(other.pose);
   if (!std::isfinite(other_chi2)) return;
 

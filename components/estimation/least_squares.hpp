@@ -44,8 +44,8 @@ struct SolveOptions {
   SecondMinimum second_minimum = SecondMinimum::kFollow;
   /// Trust in the initial rotation, used only to choose between two minima [rad].
   double prior_rotation_sigma = std::numeric_limits<double>::infinity();
-  /// Two minima whose scores (χ² plus the prior's term) differ by less are ambiguous: 9.2 is 100 : 1.
-  double ambiguity_margin = 9.2;
+  /// Two minima whose scores (χ² plus the prior's term) differ by less are ambiguous: 18.4 is 10⁴ : 1.
+  double ambiguity_margin = 18.4;
 };
 
 /// Sights one solve takes; those beyond are left out and counted as culled.

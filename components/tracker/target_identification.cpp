@@ -13,8 +13,11 @@ namespace {
 
 constexpr std::size_t kMostCandidates = 4096;  // foursomes of targets looked at for one foursome of dots
 constexpr std::size_t kMostSurvivors = 8;      // carried to all dots
-/// Two labellings whose log-chances differ by less explain the dots equally well.
-constexpr double kLabellingMargin = 12.0;
+/// Two labellings whose log-odds differ by less may either be right (1 in 10⁴).
+constexpr double kLabellingMargin = 9.2;
+constexpr double kBeyondDoubt = -16.0;      // log-chance at which the search stops
+constexpr std::uint32_t kSecondLooks = 40;  // foursomes after the first credible labelling short of that
+constexpr double kImprobable = 4.0;  // χ² this many of its standard deviations too large is not noise
 
 struct Survivor {
   Pose pose;
@@ -44,8 +47,13 @@ struct TargetIdentifier::Work {
 
   void search(std::span<const RigDot> given, TargetIdentification& result) noexcept;
   void collect_survivors(const DotFoursome& foursome, TargetIdentification& result) noexcept;
-  /// Completes the survivors; true where one of them is an answer or the labelling is ambiguous.
-  bool judge(TargetIdentification& result) noexcept;
+  /// Completes the survivors and keeps the two likeliest labellings seen so far.
+  void judge(TargetIdentification& result) noexcept;
+  /// So good a match is no chance.
+  bool credible(const TargetLabelling& labelling) const noexcept;
+  /// Nothing found later could outdo it.
+  bool beyond_doubt() const noexcept { return has_best && best.log_chance <= kBeyondDoubt; }
+  void answer(TargetIdentification& result) noexcept;
 
   TargetBody body;
   TargetIdentifierOptions options;
@@ -57,6 +65,7 @@ struct TargetIdentifier::Work {
   std::array<PatchLabels, kMostCandidates> candidates;
   StaticVector<Survivor, kMostSurvivors> survivors;
   TargetLabelling best, second, candidate;
+  bool has_best = false, has_second = false;
 };
 
 TargetIdentifier::TargetIdentifier(const TargetBody& body, const TargetIdentifierOptions& options)
@@ -81,17 +90,22 @@ TargetIdentification TargetIdentifier::identify(std::span<const RigDot> dots) no
 void TargetIdentifier::Work::search(std::span<const RigDot> given, TargetIdentification& result) noexcept {
   dots = given;
   verification.start(given);
+  has_best = has_second = false;
+  result.status = TargetIdentificationStatus::kNoMatch;
   DotFoursome foursome;
-  while (foursomes.next(foursome)) {
-    if (result.foursomes == options.most_foursomes || result.hypotheses >= options.most_hypotheses) {
+  std::uint32_t most_foursomes = options.most_foursomes;
+  while (!beyond_doubt() && foursomes.next(foursome)) {
+    if (result.foursomes == most_foursomes || result.hypotheses >= options.most_hypotheses) {
       result.status = TargetIdentificationStatus::kWorkLimit;
-      return;
+      break;
     }
     ++result.foursomes;
+    const bool had_best = has_best;
     collect_survivors(foursome, result);
-    if (judge(result)) return;
+    judge(result);
+    if (has_best && !had_best) most_foursomes = std::min(most_foursomes, result.foursomes + kSecondLooks);
   }
-  result.status = TargetIdentificationStatus::kNoMatch;
+  if (has_best) answer(result);
 }
 
 void TargetIdentifier::Work::collect_survivors(const DotFoursome& foursome,
@@ -123,36 +137,40 @@ void TargetIdentifier::Work::collect_survivors(const DotFoursome& foursome,
   }
 }
 
-bool TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
-  bool has_best = false, has_second = false;
+void TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
   for (const Survivor& survivor : survivors) {
     ++result.verified;
-    if (!verification.complete(survivor.pose, least_explained, candidate)) continue;
-    if (candidate.log_chance > options.largest_log_chance || candidate.pairs.size() < least_explained)
-      continue;
+    if (!verification.complete(survivor.pose, least_explained, candidate) || !credible(candidate)) continue;
     if (has_best && same_labelling(candidate, best)) {
-      if (candidate.log_chance < best.log_chance) best = candidate;
-    } else if (!has_best || candidate.log_chance < best.log_chance) {
-      if (has_best) {
-        second = best;
-        has_second = true;
-      }
+      if (log_odds(candidate, best) > 0) best = candidate;
+    } else if (!has_best || log_odds(candidate, best) > 0) {
+      if (has_best) second = best;
+      has_second = has_best;
       best = candidate;
       has_best = true;
-    } else if (!has_second || candidate.log_chance < second.log_chance) {
+    } else if (!has_second || log_odds(candidate, second) > 0) {
       second = candidate;
       has_second = true;
     }
   }
-  if (!has_best) return false;
-  verification.try_other_minimum(least_explained, best);
-  const bool ambiguous = has_second && second.log_chance - best.log_chance < kLabellingMargin;
+}
+
+bool TargetIdentifier::Work::credible(const TargetLabelling& labelling) const noexcept {
+  const double freedom = 2.0 * static_cast<double>(labelling.pairs.size()) - 6;
+  const bool fits = labelling.pose.chi2 <= freedom + kImprobable * std::sqrt(2 * freedom);
+  return labelling.pairs.size() >= least_explained &&
+         labelling.log_chance <= (fits ? options.largest_log_chance : kBeyondDoubt);
+}
+
+void TargetIdentifier::Work::answer(TargetIdentification& result) noexcept {
+  verification.try_other_minimum(least_explained, best, candidate);
+  if (credible(candidate) && log_odds(candidate, best) > 0) best = candidate;
+  const bool ambiguous = has_second && log_odds(best, second) < kLabellingMargin;
   result.status =
       ambiguous ? TargetIdentificationStatus::kAmbiguous : TargetIdentificationStatus::kIdentified;
   result.pose = best.pose;
   result.pairs = best.pairs;
   result.log_chance = best.log_chance;
-  return true;
 }
 
 }  // namespace omma

@@ -14,6 +14,8 @@ namespace {
 /// [1/rad].
 constexpr double kBend = 0.1;
 constexpr int kGrowthRounds = 3;
+/// No earlier pose tells the two minima of a flat card apart: the less likely one must be hopeless.
+constexpr double kPoseMargin = 25.0;
 
 }  // namespace
 
@@ -22,6 +24,13 @@ bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept
   for (const TargetPair& p : a.pairs)
     for (const TargetPair& q : b.pairs) shared += p.dot == q.dot && p.target == q.target ? 1 : 0;
   return 2 * shared >= std::min(a.pairs.size(), b.pairs.size());
+}
+
+double log_odds(const TargetLabelling& of, const TargetLabelling& against) noexcept {
+  // One density for both: they explain the same dots.
+  const double log_clutter = std::max(of.log_clutter, against.log_clutter);
+  const double more = static_cast<double>(of.pairs.size()) - static_cast<double>(against.pairs.size());
+  return 0.5 * (against.pose.chi2 - of.pose.chi2) - more * log_clutter;
 }
 
 TargetVerification::TargetVerification(const TargetBody& body, double gate) : gate_(gate) {
@@ -38,6 +47,7 @@ TargetVerification::TargetVerification(const TargetBody& body, double gate) : ga
   growing_.max_iterations = 8;
   growing_.largest_rotation_sigma = growing_.largest_position_sigma = std::numeric_limits<double>::infinity();
   final_.gate = gate;
+  final_.ambiguity_margin = kPoseMargin;
 }
 
 void TargetVerification::look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept {
@@ -130,13 +140,16 @@ bool TargetVerification::complete(const Pose& rig_from_body, std::size_t least,
   return grow(least, labelling);
 }
 
-void TargetVerification::try_other_minimum(std::size_t least, TargetLabelling& labelling) noexcept {
+void TargetVerification::try_other_minimum(std::size_t least, const TargetLabelling& labelling,
+                                           TargetLabelling& other) noexcept {
   pairs_ = labelling.pairs;
-  solve(labelling.pose.rig_from_body, growing_, other_.pose);
+  solve(labelling.pose.rig_from_body, growing_, other.pose);
   const CardShape shape = card_shape(sights_, {});
-  if (!shape.flat) return;
-  solve(mirrored_pose(shape, labelling.pose.rig_from_body), growing_, other_.pose);
-  if (grow(least, other_) && other_.log_chance < labelling.log_chance) labelling = other_;
+  if (shape.flat) {
+    solve(mirrored_pose(shape, labelling.pose.rig_from_body), growing_, other.pose);
+    if (grow(least, other)) return;
+  }
+  other = labelling;
 }
 
 bool TargetVerification::grow(std::size_t least, TargetLabelling& labelling) noexcept {
@@ -155,7 +168,10 @@ bool TargetVerification::grow(std::size_t least, TargetLabelling& labelling) noe
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     if (used_[i]) labelling.pairs.push_back(pairs_[i]);
   pairs_ = labelling.pairs;
-  labelling.log_chance = log_chance(labelling.pose);
+  const Surroundings here = surroundings(labelling.pose);
+  labelling.log_chance = log_chance(labelling.pose, here);
+  const double density = std::max(here.dots - 3, 1.0) / here.area;
+  labelling.log_clutter = std::log(2 * std::numbers::pi * here.variance * density);
   return true;
 }
 
@@ -234,40 +250,55 @@ void TargetVerification::match_camera(const PoseSolution& pose, std::span<const 
   }
 }
 
-double TargetVerification::log_chance(const PoseSolution& solution) const noexcept {
-  double inside = 0, area = 0, chances = 0, variance = 0;
+TargetVerification::Surroundings TargetVerification::surroundings(
+    const PoseSolution& solution) const noexcept {
+  Surroundings here;
   for (std::size_t first = 0; first < dots_.size();) {
     const Region seen = region(solution.rig_from_body, dots_[first].origin);
     const double smallest = std::cos(std::min(std::numbers::pi, seen.radius + 3 * dots_[first].sigma));
-    double here = 0;
+    double inside = 0;
     std::size_t i = first;
     for (; i < dots_.size() && dots_[i].camera == dots_[first].camera; ++i)
-      here += dots_[i].ray.dot(seen.direction) >= smallest ? 1 : 0;
-    if (here > 0) {
-      inside += here;
-      area += 2 * std::numbers::pi * (1 - smallest);
-      chances += static_cast<double>(targets_.size());
+      inside += dots_[i].ray.dot(seen.direction) >= smallest ? 1 : 0;
+    if (inside > 0) {
+      here.dots += inside;
+      here.area += 2 * std::numbers::pi * (1 - smallest);
+      here.chances += static_cast<double>(targets_.size());
     }
     first = i;
   }
-  for (const TargetPair& pair : pairs_) variance += dots_[pair.dot].sigma * dots_[pair.dot].sigma;
+  for (const TargetPair& pair : pairs_) here.variance += dots_[pair.dot].sigma * dots_[pair.dot].sigma;
+  here.variance /= static_cast<double>(pairs_.size());
+  return here;
+}
+
+double TargetVerification::log_choose(double of, std::size_t k) const noexcept {
+  const auto total = static_cast<std::size_t>(
+      std::clamp(of, static_cast<double>(k), static_cast<double>(log_factorial_.size() - 1)));
+  return log_factorial_[total] - log_factorial_[k] - log_factorial_[total - k];
+}
+
+// The expected number of labellings of `k` dots that fit so well by chance. Dots strewn at random over the
+// area A of the body fit a given labelling when, as a point in 2k dimensions, they lie within r = √χ² σ of
+// the six-dimensional surface of dots that some pose gives exactly. Its volume is the surface's, that of
+// three of the dots (two poses make A³) times √(k over 3), by Cauchy and Binet, times the ball of radius r in
+// the other 2n = 2k − 6 dimensions, (π r²)ⁿ/n!.
+double TargetVerification::log_chance(const PoseSolution& solution, const Surroundings& here) const noexcept {
   const std::size_t k = pairs_.size(), n = k - 3;
-  variance /= static_cast<double>(k);
   const auto more = static_cast<double>(n);
-  const double density = std::max(inside - 3, 1.0) / area;
   const double m = static_cast<double>(targets_.size()), all = static_cast<double>(dots_.size());
-  // Ways to pair three dots of the neighbourhood with three targets, two poses each, over all neighbourhoods.
-  const double hypotheses = std::log(std::max(1.0, all / inside) * inside * std::max(1.0, inside - 1) *
-                                     std::max(1.0, inside - 2) / 6 * m * (m - 1) * (m - 2) * 2);
-  const auto log_choose = [this](double of, std::size_t k_of) {
-    const auto total = static_cast<std::size_t>(
-        std::clamp(of, static_cast<double>(k_of), static_cast<double>(log_factorial_.size() - 1)));
-    return log_factorial_[total] - log_factorial_[k_of] - log_factorial_[total - k_of];
-  };
-  const double chi2 = std::max(solution.chi2, more);
-  return hypotheses + log_choose(chances - 3, n) +
-         more * std::log(density * std::numbers::pi * variance * chi2) - log_factorial_[n] +
-         0.5 * log_choose(static_cast<double>(k), 3) + std::log(2.0);
+  // Ways to pair three dots of the neighbourhood with three targets, two poses each, over all neighbourhoods;
+  // then n more targets with dots; every labelling comes up once for each three of its k dots.
+  const double triples = std::log(std::max(1.0, all / here.dots) * here.dots * std::max(1.0, here.dots - 1) *
+                                  std::max(1.0, here.dots - 2) / 6 * m * (m - 1) * (m - 2) * 2);
+  const double rest = std::max(here.dots - 3, 1.0);
+  double arrangements = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    arrangements += std::log(std::max(rest - static_cast<double>(i), 1.0) / here.area);
+  const double variance = here.variance, chi2 = std::max(solution.chi2, more);
+  return triples + log_choose(here.chances - 3, n) + arrangements -
+         0.5 * log_choose(static_cast<double>(k), 3) + more * std::log(std::numbers::pi * variance * chi2) -
+         log_factorial_[n] + std::log(std::max(2.0, m - 3));
 }
 
 }  // namespace omma

@@ -19,8 +19,12 @@ namespace omma {
 struct TargetLabelling {
   PoseSolution pose;
   StaticVector<TargetPair, limits::kTargetPairs> pairs;
-  double log_chance = 0;
+  double log_chance = 0;   ///< ln of the expected number of such labellings among dots strewn at random
+  double log_clutter = 0;  ///< ln of the mean number of dots strewn at random in a dot's error ellipse
 };
+
+/// ln of how much likelier the first makes the dots than the second: what it explains is noise, else clutter.
+double log_odds(const TargetLabelling& of, const TargetLabelling& against) noexcept;
 
 /// True where the two give the same target to most of the dots of the smaller.
 bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept;
@@ -40,9 +44,10 @@ class TargetVerification {
   /// @return false where the pairs do not make a pose, or explain fewer than `least` targets
   bool complete(const Pose& rig_from_body, std::size_t least, TargetLabelling& labelling) noexcept;
 
-  /// A flat card's labelling begun in the wrong one of its two minima loses pairs there: grows it anew from
-  /// the mirror image of its pose and keeps the likelier of the two.
-  void try_other_minimum(std::size_t least, TargetLabelling& labelling) noexcept;
+  /// A flat card's labelling begun in the wrong one of its two minima loses pairs there: `other` is grown
+  /// anew from the mirror image of its pose; where that gives nothing, `other` is the labelling itself.
+  void try_other_minimum(std::size_t least, const TargetLabelling& labelling,
+                         TargetLabelling& other) noexcept;
 
  private:
   bool grow(std::size_t least, TargetLabelling& labelling) noexcept;
@@ -59,7 +64,17 @@ class TargetVerification {
   void match_everywhere(const PoseSolution& pose) noexcept;
   void match_camera(const PoseSolution& pose, std::span<const RigDot> dots, std::size_t first) noexcept;
   void solve(const Pose& initial, const SolveOptions& options, PoseSolution& solution) noexcept;
-  double log_chance(const PoseSolution& solution) const noexcept;
+  /// What lies in the part of the sphere where the pose puts the body, all cameras together.
+  struct Surroundings {
+    double dots = 0;
+    double area = 0;      ///< [sr]
+    double chances = 0;   ///< targets looked for: those of the body, once a camera
+    double variance = 0;  ///< mean of the paired dots' variances [rad²]
+  };
+  Surroundings surroundings(const PoseSolution& solution) const noexcept;
+  double log_chance(const PoseSolution& solution, const Surroundings& here) const noexcept;
+  /// ln of the ways to choose k of so many.
+  double log_choose(double of, std::size_t k) const noexcept;
 
   std::vector<Eigen::Vector3d> targets_;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
@@ -85,7 +100,6 @@ class TargetVerification {
 
   StaticVector<TargetPair, limits::kTargetPairs> pairs_;
   StaticVector<Sight, limits::kTargetPairs> sights_;
-  TargetLabelling other_;
   std::array<std::uint8_t, limits::kTargetPairs> used_{};
   std::array<double, limits::kTargetPairs> distances_{};  ///< of pairs_, squared, in σ
   StaticVector<std::uint16_t, limits::kDotsPerCamera> in_region_;

@@ -15,9 +15,11 @@ constexpr std::size_t kMostCandidates = 4096;  // foursomes of targets looked at
 constexpr std::size_t kMostSurvivors = 8;      // carried to all dots
 /// Two labellings whose log-odds differ by less may either be right (1 in 10⁴).
 constexpr double kLabellingMargin = 9.2;
-constexpr double kBeyondDoubt = -16.0;      // log-chance at which the search stops
-constexpr std::uint32_t kSecondLooks = 40;  // foursomes after the first credible labelling short of that
-constexpr double kImprobable = 4.0;  // χ² this many of its standard deviations too large is not noise
+constexpr double kBeyondDoubt = -12.0;  // log-chance at which the search stops
+// Foursomes looked at after the first credible labelling short of that: those that share dots with it, and
+// others.
+constexpr std::uint32_t kSecondLooks = 60, kLooksElsewhere = 8;
+constexpr double kImprobable = 6.0;  // χ² this many of its standard deviations too large is not noise
 
 struct Survivor {
   Pose pose;
@@ -33,6 +35,13 @@ void keep(const Survivor& survivor, StaticVector<Survivor, kMostSurvivors>& best
   best.push_back(survivor);
   for (std::size_t i = best.size() - 1; i > 0 && best[i - 1].explained < best[i].explained; --i)
     std::swap(best[i - 1], best[i]);
+}
+
+/// A labelling that explains the same dots otherwise would come from here: three of them at least.
+bool shares_dots(const DotFoursome& foursome, const TargetLabelling& labelling) noexcept {
+  return std::count_if(labelling.pairs.begin(), labelling.pairs.end(), [&](const TargetPair& pair) {
+           return std::find(foursome.dots.begin(), foursome.dots.end(), pair.dot) != foursome.dots.end();
+         }) >= 3;
 }
 
 }  // namespace
@@ -93,17 +102,18 @@ void TargetIdentifier::Work::search(std::span<const RigDot> given, TargetIdentif
   has_best = has_second = false;
   result.status = TargetIdentificationStatus::kNoMatch;
   DotFoursome foursome;
-  std::uint32_t most_foursomes = options.most_foursomes;
+  std::uint32_t second_looks = 0, looks_elsewhere = 0;
   while (!beyond_doubt() && foursomes.next(foursome)) {
-    if (result.foursomes == most_foursomes || result.hypotheses >= options.most_hypotheses) {
+    if (result.foursomes == options.most_foursomes || result.hypotheses >= options.most_hypotheses) {
       result.status = TargetIdentificationStatus::kWorkLimit;
       break;
     }
+    if (has_best && second_looks == kSecondLooks) break;
+    if (has_best && !shares_dots(foursome, best) && ++looks_elsewhere > kLooksElsewhere) continue;
     ++result.foursomes;
-    const bool had_best = has_best;
+    second_looks += has_best ? 1 : 0;
     collect_survivors(foursome, result);
     judge(result);
-    if (has_best && !had_best) most_foursomes = std::min(most_foursomes, result.foursomes + kSecondLooks);
   }
   if (has_best) answer(result);
 }

@@ -6,15 +6,17 @@
 #include "fsw/kernel/input_error.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
+#include "ground/design/design.hpp"
 #include "ground/export/export.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
 #include "ground/simulate/simulate.hpp"
 #include "ground/solve/solve.hpp"
+#include "ground/stars/stars.hpp"
 
 int main(int argc, char** argv) {
-  CLI::App app{"Omma ground tools: solve photographs, simulate, monitor, record, report."};
+  CLI::App app{"Omma ground tools: solve photographs, design, simulate, calibrate, monitor, record, report."};
   app.require_subcommand(1);
   omma::ground::CommandContext context;
   omma::ground::add_solve(app, context);
@@ -25,6 +27,8 @@ int main(int argc, char** argv) {
   omma::ground::add_record(app, context);
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
+  omma::ground::add_design(app, context);
+  omma::ground::add_stars(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,11 +1,10 @@
 #include "ground/report/report_page.hpp"
 
 #include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "ground/page/page.hpp"
 #include "ground/report/svg_chart.hpp"
 
 namespace omma::ground {
@@ -14,54 +13,6 @@ namespace {
 constexpr double kArcsec = std::numbers::pi / (180.0 * 3600.0);
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array kAxes{"x", "y", "z"};
-
-constexpr std::string_view kStyle = R"(
-:root{--ink:#1b2430;--soft:#667386;--line:#d9dfe7;--paper:#fbfcfd;--card:#fff;--a:#0b6bcb;--b:#c2570c;--band:#0b6bcb22;--out:#c81e3a}
-@media(prefers-color-scheme:dark){:root{--ink:#e6ebf2;--soft:#93a1b5;--line:#2b3645;--paper:#0f141b;--card:#161d27;--a:#6db3ff;--b:#ffa75e;--band:#6db3ff2b;--out:#ff6b81}}
-*{box-sizing:border-box}body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,sans-serif}
-main{max-width:1360px;margin:0 auto;padding:28px 24px 60px}h1{font-size:26px;margin:0}h2{font-size:18px;margin:34px 0 10px}
-p.lead{color:var(--soft);margin:4px 0 20px}.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:12px}
-.figure{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px}
-.figure b{display:block;font-size:25px;font-weight:600;letter-spacing:-.01em}.figure span{color:var(--soft);font-size:13px}
-.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:14px}
-.charts svg,img{width:100%;background:var(--card);border:1px solid var(--line);border-radius:8px}.charts svg{padding:8px}
-svg .title{font:600 13px system-ui;fill:var(--ink)}svg .unit,svg .tick{font:11px system-ui;fill:var(--soft);font-weight:400}
-svg .grid{stroke:var(--line)}svg .band{fill:var(--band)}svg .in{fill:var(--a)}svg .out{fill:var(--out)}
-svg .line{fill:none;stroke-width:1.6}svg .line.a{stroke:var(--a)}svg .line.b{stroke:var(--b)}
-svg .line.faint{stroke-dasharray:3 3;opacity:.75}svg .label{font:11px system-ui}svg .label.a{fill:var(--a)}svg .label.b{fill:var(--b)}
-table{border-collapse:collapse;background:var(--card);border:1px solid var(--line);border-radius:8px}
-td,th{padding:5px 14px;text-align:right;border-top:1px solid var(--line);font-variant-numeric:tabular-nums}
-td:first-child,th:first-child{text-align:left}th{color:var(--soft);font-weight:500}figure{margin:0 0 18px}
-figcaption{color:var(--soft);font-size:13px;margin-top:4px}.note{color:var(--soft);font-size:13px;max-width:90ch}
-)";
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  std::array<char, 512> text{};
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text.data(), text.size(), pattern, values);
-  va_end(values);
-  return text.data();
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() * 4 / 3 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t rest = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8U | (k < rest ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= rest ? kDigits[word >> (18 - 6 * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
-std::string figure(const std::string& value, const std::string& text) {
-  return "<div class='figure'><b>" + value + "</b><span>" + text + "</span></div>";
-}
 
 std::string attitude_figures(const AttitudeEvaluation& attitude) {
   const double rms = attitude.rms.norm();
@@ -152,10 +103,7 @@ std::string times_table(const std::vector<LoggedTime>& times) {
 
 std::string pictures_html(const std::vector<ReportPicture>& pictures) {
   std::string html;
-  for (const ReportPicture& picture : pictures) {
-    html += "<figure><img alt='" + picture.caption + "' src='data:image/png;base64," + base64(picture.png) +
-            "'><figcaption>" + picture.caption + "</figcaption></figure>";
-  }
+  for (const ReportPicture& one : pictures) html += picture(one.png, one.caption);
   return html;
 }
 
@@ -164,13 +112,11 @@ std::string pictures_html(const std::vector<ReportPicture>& pictures) {
 std::string report_page(const ReportContent& content) {
   const Evaluation& evaluation = content.evaluation;
   std::string html =
-      "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' "
-      "content='width=device-width'><title>Omma: " +
-      content.spacecraft + "</title><style>" + std::string(kStyle) + "</style><main><h1>" +
-      content.spacecraft + "</h1><p class='lead'>" +
-      format("Flight report: %zu frame sets, %.1f s. What the flight program found, beside the truth.",
-             evaluation.attitude.frames, evaluation.duration) +
-      "</p><div class='figures'>" + attitude_figures(evaluation.attitude);
+      page_head(
+          "Omma: " + content.spacecraft, content.spacecraft,
+          format("Flight report: %zu frame sets, %.1f s. What the flight program found, beside the truth.",
+                 evaluation.attitude.frames, evaluation.duration)) +
+      "<div class='figures'>" + attitude_figures(evaluation.attitude);
   for (const PoseEvaluation& pose : evaluation.poses) html += pose_figures(pose);
   html += figure(format("%zu", evaluation.pairs.wrong),
                  format("wrong pairings of %zu (%zu more too faint to judge)",
@@ -188,8 +134,8 @@ std::string report_page(const ReportContent& content) {
       "bound "
       "counts the true spots whose signal-to-noise ratio reaches the flight extractor's threshold. A spot "
       "counts "
-      "as detectable by the same rule. Dots outside an envelope are red.</p></main></html>\n";
-  return html;
+      "as detectable by the same rule. Dots outside an envelope are red.</p>";
+  return html + page_end();
 }
 
 std::string report_json(const ReportContent& content) {

@@ -1,10 +1,9 @@
 #include "ground/report/svg_chart.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+
+#include "ground/page/page.hpp"
 
 namespace omma::ground {
 namespace {
@@ -15,15 +14,6 @@ constexpr double kLeft = 46;
 constexpr double kRight = 12;
 constexpr double kTop = 26;
 constexpr double kBottom = 24;
-
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  std::array<char, 512> text{};
-  va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text.data(), text.size(), pattern, values);
-  va_end(values);
-  return text.data();
-}
 
 /// A round number (1, 2 or 5 times a power of ten) not below `value`.
 double round_up(double value) {

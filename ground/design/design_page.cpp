@@ -33,6 +33,7 @@ std::string trade_chart(double spacing) {
 
 std::string symmetric_section(const std::vector<SymmetricRow>& rows, double spacing, double distance) {
   std::vector<std::vector<std::string>> cells;
+  cells.reserve(rows.size());
   for (const SymmetricRow& row : rows) {
     cells.push_back({format("%d, %s", row.cameras, symmetric_name(row.cameras)),
                      format("%.1f&deg;", row.needed.field / kDegree),

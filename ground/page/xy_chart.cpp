@@ -35,10 +35,11 @@ class Scale {
   std::vector<double> ticks() const {
     std::vector<double> at;
     if (logarithmic_) {  // decades; where they are few, 1, 2 and 5 of each
-      for (double e = std::ceil(low_ - 1e-9); e <= high_ + 1e-9; ++e) at.push_back(std::pow(10.0, e));
+      const int last = static_cast<int>(std::floor(high_ + 1e-9));
+      for (int e = static_cast<int>(std::ceil(low_ - 1e-9)); e <= last; ++e) at.push_back(std::pow(10.0, e));
       if (high_ - low_ > 2.5) return at;
       at.clear();
-      for (double e = std::floor(low_); e <= high_; ++e) {
+      for (int e = static_cast<int>(std::floor(low_)); e <= last; ++e) {
         for (const double step : {1.0, 2.0, 5.0}) {
           const double tick = step * std::pow(10.0, e);
           if (std::log10(tick) >= low_ - 1e-9 && std::log10(tick) <= high_ + 1e-9) at.push_back(tick);

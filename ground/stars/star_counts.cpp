@@ -68,6 +68,7 @@ std::vector<StarCount> star_counts(std::span<const SkyStar> stars, std::span<con
     for (const double magnitude : magnitudes) {
       const std::vector<Eigen::Vector3d> bright = brighter_than(stars, magnitude);
       std::vector<int> counts;
+      counts.reserve(axes.size());
       for (const Eigen::Vector3d& axis : axes) {
         counts.push_back(
             static_cast<int>(std::count_if(bright.begin(), bright.end(), [&](const Eigen::Vector3d& d) {

@@ -58,7 +58,7 @@ std::string json_of(const std::vector<StarCount>& counts) {
 
 std::string count_chart_of(std::span<const SkyStar> stars, double field_deg) {
   std::vector<double> magnitudes;
-  for (double v = 0; v <= 6.51; v += 0.25) magnitudes.push_back(v);
+  for (int quarter = 0; quarter <= 26; ++quarter) magnitudes.push_back(0.25 * quarter);
   const std::vector<double> fields{field_deg * kDegree};
   XySeries mean{"uniform", "a", Mark::kDashed, {}};
   XySeries low{"5 %", "a", Mark::kLine, {}};
@@ -87,7 +87,8 @@ std::string field_chart(std::span<const SkyStar> stars) {
   for (const auto& [count, colour] : {std::pair{4, "a"}, std::pair{8, "b"}, std::pair{30, "c"}}) {
     XySeries always{format("%d, always", count), colour, Mark::kLine, {}};
     XySeries mean{format("%d, mean", count), colour, Mark::kDashed, {}};
-    for (double v = 1; v <= 6.51; v += 0.25) {
+    for (int quarter = 4; quarter <= 26; ++quarter) {
+      const double v = 0.25 * quarter;
       const FieldForStars field = field_for_stars(stars, v, count, 1500);
       if (field.always < 2 * std::numbers::pi) always.points.emplace_back(v, field.always / kDegree);
       if (field.mean < 2 * std::numbers::pi) mean.points.emplace_back(v, field.mean / kDegree);
@@ -109,6 +110,7 @@ std::string page_of(std::span<const SkyStar> stars, const StarsArguments& argume
       sky, format("Stars brighter than V %.1f, equal-area, J2000, right ascension growing to the left.",
                   kPictureMagnitude));
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(counts.size());
   for (const StarCount& c : counts) {
     rows.push_back({format("%g&deg;", c.field / kDegree), format("%.2f", c.magnitude),
                     format("%.1f", c.uniform), format("%.1f", c.deviation),

@@ -4,12 +4,14 @@
 #include <bit>
 #include <cmath>
 
-#include "components/extractor/dot_measurement.hpp"
-
 namespace omma {
 
 DotExtractor::DotExtractor(int width, int height)
-    : width_(width), height_(height), background_(width, height), blobs_(width) {
+    : width_(width),
+      height_(height),
+      background_(width, height),
+      blobs_(width),
+      measurement_(width, height, kCandidates) {
   const auto words = static_cast<std::size_t>((width + 63) / 64);
   row_length_ = (words + 1) * 64;
   for (auto& row : smoothed_) row.resize(row_length_);
@@ -17,13 +19,14 @@ DotExtractor::DotExtractor(int width, int height)
   threshold_.resize(cell_rows * row_length_);
   bits_.resize(words);
   candidates_.reserve(kCandidates);
+  found_.reserve(kCandidates);
 }
 
 void DotExtractor::extract(const ImageView& image, const ExtractorParameters& parameters,
                            DotList& list) noexcept {
   list.dots.clear();
   list.dropped = 0;
-  candidates_.clear();
+  found_.clear();
   overflow_ = 0;
   if (image.empty() || image.width != width_ || image.height != height_ || width_ < 3 || height_ < 3) return;
   if (parameters.polarity != DotPolarity::kBright) search(image, parameters, true);
@@ -79,22 +82,8 @@ void DotExtractor::search(const ImageView& image, const ExtractorParameters& par
   const PixelScale scale = pixel_scale(image, invert);
   prepare_thresholds(scale, parameters.threshold);
   blobs_.start();
-  const auto measured = [&](const Blob& blob) {
-    if (std::max(blob.width(), blob.height()) > parameters.max_diameter) return;
-    const float u = 0.5F * static_cast<float>(blob.left + blob.right);
-    const float v = 0.5F * static_cast<float>(blob.top + blob.bottom);
-    PixelNoise noise{background_.level(u, v), background_.noise(u, v), parameters.gain};
-    if (noise.gain <= 0) {  // unknown: the background as if it were all shot noise
-      noise.gain = std::max(1.0F, noise.background - parameters.black_level) / (noise.sigma * noise.sigma);
-    }
-    Dot dot;
-    if (!measure_dot(image, invert, blob, noise, parameters, dot)) return;
-    if (candidates_.size() < kCandidates) {
-      candidates_.push_back(dot);
-    } else {
-      ++overflow_;
-    }
-  };
+  candidates_.clear();
+  const auto finished = [&](const Blob& blob) { add_candidates(image, invert, blob, parameters); };
 
   smooth_row(image, 0, scale, smoothed_[0].data());
   smooth_row(image, 1, scale, smoothed_[1].data());
@@ -112,9 +101,58 @@ void DotExtractor::search(const ImageView& image, const ExtractorParameters& par
                       threshold_of(band), threshold_of(band + 1), phase, width_, bits_.data())) {
       add_runs(image, scale, v);
     }
-    blobs_.end_row(v, measured);
+    blobs_.end_row(v, finished);
   }
-  blobs_.finish(measured);
+  blobs_.finish(finished);
+  measurement_.measure(image, invert, parameters, candidates_, found_);
+}
+
+void DotExtractor::add_candidates(const ImageView& image, bool invert, const Blob& blob,
+                                  const ExtractorParameters& parameters) noexcept {
+  if (std::max(blob.width(), blob.height()) > parameters.max_diameter) return;
+  Candidate candidate;
+  candidate.left = blob.left;
+  candidate.right = blob.right;
+  candidate.top = blob.top;
+  candidate.bottom = blob.bottom;
+  candidate.area = static_cast<int>(blob.shape.n);
+  candidate.saturated = static_cast<int>(blob.saturated.n);
+  const float u = 0.5F * static_cast<float>(blob.left + blob.right);
+  const float v = 0.5F * static_cast<float>(blob.top + blob.bottom);
+  PixelNoise& noise = candidate.noise;
+  noise = {background_.level(u, v), background_.noise(u, v), parameters.gain};
+  if (noise.gain <= 0) {  // unknown: the background as if it were all shot noise
+    noise.gain = std::max(1.0F, noise.background - parameters.black_level) / (noise.sigma * noise.sigma);
+  }
+  const auto light = [&](std::int64_t sum, std::int64_t pixels) {
+    return static_cast<double>(sum) - static_cast<double>(noise.background) * static_cast<double>(pixels);
+  };
+  const double over = light(blob.light.n, blob.shape.n);
+  if (!(over > 0)) return;
+  candidate.light = static_cast<float>(over);
+  candidate.u = static_cast<float>(blob.origin_u + light(blob.light.u, blob.shape.u) / over);
+  candidate.v = static_cast<float>(blob.origin_v + light(blob.light.v, blob.shape.v) / over);
+  candidate.peak = static_cast<float>(blob.peak) - noise.background;
+  candidate.height = 0.5F * candidate.peak;
+  find_peaks(image, invert, candidate, peaks_);
+  candidate.peaks = std::max(1, static_cast<int>(peaks_.size()));
+  const auto add = [&] {
+    if (candidates_.size() < kCandidates) {
+      candidates_.push_back(candidate);
+    } else {
+      ++overflow_;
+    }
+  };
+  if (peaks_.empty()) return add();
+  candidate.area /= candidate.peaks;
+  for (const Peak& peak : peaks_) {
+    candidate.height = static_cast<float>(peak.height) / 16 - noise.background;
+    if (peaks_.size() > 1) {
+      candidate.u = static_cast<float>(peak.u);
+      candidate.v = static_cast<float>(peak.v);
+    }
+    add();
+  }
 }
 
 // The runs of set bits of the row, each given to its blob.
@@ -174,12 +212,11 @@ void DotExtractor::keep_best(DotList& list) noexcept {
   const auto brighter = [&](const Dot& a, const Dot& b) {
     return a.flux != b.flux ? a.flux > b.flux : reading_order(a, b);
   };
-  const std::size_t kept = std::min(candidates_.size(), limits::kDotsPerCamera);
-  list.dropped = static_cast<std::uint32_t>(candidates_.size() - kept) + overflow_;
-  std::partial_sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept),
-                    candidates_.end(), surer);
-  std::sort(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(kept), brighter);
-  for (std::size_t i = 0; i < kept; ++i) list.dots.push_back(candidates_[i]);
+  const std::size_t kept = std::min(found_.size(), limits::kDotsPerCamera);
+  list.dropped = static_cast<std::uint32_t>(found_.size() - kept) + overflow_;
+  std::partial_sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(kept), found_.end(), surer);
+  std::sort(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(kept), brighter);
+  for (std::size_t i = 0; i < kept; ++i) list.dots.push_back(found_[i]);
 }
 
 }  // namespace omma

@@ -7,8 +7,10 @@
 
 #include "components/extractor/background_map.hpp"
 #include "components/extractor/blob_finder.hpp"
+#include "components/extractor/blob_peaks.hpp"
 #include "components/extractor/detection_filter.hpp"
 #include "components/extractor/dot.hpp"
+#include "components/extractor/dot_measurement.hpp"
 #include "components/extractor/extractor_parameters.hpp"
 #include "hal/image.hpp"
 
@@ -29,6 +31,8 @@ class DotExtractor {
   void prepare_thresholds(const PixelScale& scale, float threshold) noexcept;
   void add_runs(const ImageView& image, const PixelScale& scale, int v) noexcept;
   void add_pixels(const ImageView& image, bool invert, int first, int last, int v, Blob& blob) noexcept;
+  void add_candidates(const ImageView& image, bool invert, const Blob& blob,
+                      const ExtractorParameters& parameters) noexcept;
   void keep_best(DotList& list) noexcept;
 
   static constexpr std::size_t kCandidates = 4096;
@@ -41,7 +45,10 @@ class DotExtractor {
   std::vector<std::int16_t> threshold_;     // one row of the image per row of cells
   std::vector<std::uint64_t> bits_;
   std::size_t row_length_ = 0;  // width rounded up to whole words, and one word
-  std::vector<Dot> candidates_;
+  Peaks peaks_;
+  std::vector<Candidate> candidates_;
+  DotMeasurement measurement_;
+  std::vector<Dot> found_;
   std::uint32_t overflow_ = 0;  // candidates beyond the scratch
 };
 

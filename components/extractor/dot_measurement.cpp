@@ -3,216 +3,289 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/extractor/disc_centroid.hpp"
+
 namespace omma {
 namespace {
 
-constexpr int kLargestRadius = 12;       // of the window of a point [px]
-constexpr int kIterations = 12;          // cap of the adaptive centroid
-constexpr double kConverged = 1e-3;      // [px]
-constexpr double kLeastSigma = 0.45;     // of the window [px]: a pixel's own width blurs no less
-constexpr double kPixelPhase = 0.01;     // what sampling leaves of a centroid's error [px]
-constexpr double kSaturatedError = 0.1;  // a clipped core hides this much of the centre [px]
+constexpr std::size_t kBrightest = 24;  // spots the width is learnt from
+constexpr std::size_t kEnough = 6;
+constexpr float kWidthSnr = 12;        // their least signal-to-noise ratio
+constexpr float kNarrowest = 0.55F;    // spot of an image, in widths of its point spread
+constexpr double kModelError = 0.003;  // what no model of a real spot is better than [px]
+// Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
+// the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
+constexpr double kSecondOrder = 4;
+constexpr int kLeastPixels = 12;         // of a window
+constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
+constexpr int kSweeps = 2;               // over spots in each other's light, after the first
 
-// Light over the background, dark dots turned into bright ones.
-struct Light {
-  const ImageView& image;
-  bool invert;
-  float background;
-
-  double operator()(int u, int v) const {
-    const int raw =
-        image.format == PixelFormat::kGrey8 ? image.row<std::uint8_t>(v)[u] : image.row<std::uint16_t>(v)[u];
-    return (invert ? image.white_level - raw : raw) - static_cast<double>(background);
-  }
-};
-
-double pixel_variance(double light, const PixelNoise& noise) {
-  const double photons = noise.gain > 0 && light > 0 ? light / noise.gain : 0;
-  return static_cast<double>(noise.sigma) * noise.sigma + photons;
+int radius_for(double sigma) {
+  return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
 }
 
-struct Window {
-  int left, right, top, bottom;
-};
-
-Window window_about(double u, double v, int radius, const ImageView& image) {
-  const int cu = static_cast<int>(std::lround(u));
-  const int cv = static_cast<int>(std::lround(v));
-  return {std::max(0, cu - radius), std::min(image.width - 1, cu + radius), std::max(0, cv - radius),
-          std::min(image.height - 1, cv + radius)};
-}
-
-struct WeightedSums {
-  double light = 0, u = 0, v = 0, r2 = 0;           // Σ w I, Σ w I du, Σ w I dv, Σ w I r²
-  double uu = 0, uv = 0, vv = 0;                    // Σ w I du², …
-  double noise_uu = 0, noise_uv = 0, noise_vv = 0;  // Σ w² σ² du², …
-  double flux = 0, flux_variance = 0;               // Σ I, Σ σ² over the aperture
-};
-
-WeightedSums weighted_sums(const Light& light, const Window& window, double u, double v, double sigma,
-                           const PixelNoise& noise) {
-  WeightedSums sums;
-  const double scale = -0.5 / (sigma * sigma);
-  const double aperture2 = 9 * sigma * sigma + 1;
-  for (int y = window.top; y <= window.bottom; ++y) {
-    for (int x = window.left; x <= window.right; ++x) {
-      const double du = x - u;
-      const double dv = y - v;
-      const double r2 = du * du + dv * dv;
-      const double w = std::exp(scale * r2);
-      const double i = light(x, y);
-      const double variance = pixel_variance(i, noise);
-      sums.light += w * i;
-      sums.u += w * i * du;
-      sums.v += w * i * dv;
-      sums.uu += w * i * du * du;
-      sums.uv += w * i * du * dv;
-      sums.vv += w * i * dv * dv;
-      sums.r2 += w * i * r2;
-      sums.noise_uu += w * w * variance * du * du;
-      sums.noise_uv += w * w * variance * du * dv;
-      sums.noise_vv += w * w * variance * dv * dv;
-      if (r2 <= aperture2) {
-        sums.flux += i;
-        sums.flux_variance += variance;
-      }
-    }
-  }
-  return sums;
-}
-
-void set_shape(double uu, double uv, double vv, Dot& dot) {
-  const double mean = 0.5 * (uu + vv);
-  const double half = std::hypot(0.5 * (uu - vv), uv);
-  dot.sigma_major = static_cast<float>(std::sqrt(std::max(0.0, mean + half)));
-  dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.0, mean - half)));
-}
-
-// Iterated Gaussian-weighted centroid; the window takes the width of the spot it measures.
-// Returns the width of the spot, or a negative number where it does not settle.
-double measure_point(const Light& light, const PixelNoise& noise, double u, double v, double first_sigma,
-                     Dot& dot) {
-  double sigma = std::clamp(first_sigma, kLeastSigma, 4.0);
-  WeightedSums sums;
-  const double start_u = u;
-  const double start_v = v;
-  for (int k = 0; k < kIterations; ++k) {
-    const int radius = std::min(kLargestRadius, static_cast<int>(std::ceil(3.5 * sigma)) + 1);
-    sums = weighted_sums(light, window_about(u, v, radius, light.image), u, v, sigma, noise);
-    if (!(sums.light > 0)) return -1;
-    // Twice the weighted offset: a Gaussian seen through a window of its own width shows half of it.
-    const double du = 2 * sums.u / sums.light;
-    const double dv = 2 * sums.v / sums.light;
-    u += du;
-    v += dv;
-    if (std::hypot(u - start_u, v - start_v) > 3.0 + first_sigma) return -1;
-    // Variance seen through the window, m = σ²s²/(σ²+s²), gives the spot's own σ² = m s²/(s² − m).
-    const double m = 0.5 * sums.r2 / sums.light;
-    const double s2 = sigma * sigma;
-    const double own = m > 0 && m < 0.95 * s2 ? m * s2 / (s2 - m) : (m > 0 ? 16.0 : 0.0);
-    const double next = std::clamp(std::sqrt(own), kLeastSigma, 4.0);
-    const bool settled = std::hypot(du, dv) < kConverged && std::abs(next - sigma) < 0.01;
-    sigma = next;
-    if (settled) break;
-  }
-  const double norm = 4 / (sums.light * sums.light);
-  dot.pixel = {u, v};
-  dot.covariance << norm * sums.noise_uu, norm * sums.noise_uv, norm * sums.noise_uv, norm * sums.noise_vv;
-  dot.flux = static_cast<float>(sums.flux);
-  dot.snr = static_cast<float>(sums.flux / std::sqrt(sums.flux_variance));
-  const double unwindow = 2 / sums.light;
-  set_shape(unwindow * sums.uu, unwindow * sums.uv, unwindow * sums.vv, dot);
-  return sigma;
-}
-
-// Plain first moment over the blob's box and a margin: right for a disc whose edge carries the information.
-bool measure_disc(const Light& light, const PixelNoise& noise, const Blob& blob, Dot& dot) {
-  constexpr int kMargin = 2;
-  const Window window{std::max(0, blob.left - kMargin), std::min(light.image.width - 1, blob.right + kMargin),
-                      std::max(0, blob.top - kMargin),
-                      std::min(light.image.height - 1, blob.bottom + kMargin)};
-  double flux = 0, su = 0, sv = 0, flux_variance = 0;
-  for (int y = window.top; y <= window.bottom; ++y) {
-    for (int x = window.left; x <= window.right; ++x) {
-      const double i = light(x, y);
-      flux += i;
-      su += i * (x - blob.left);
-      sv += i * (y - blob.top);
-      flux_variance += pixel_variance(i, noise);
-    }
-  }
-  if (!(flux > 0)) return false;
-  const double u = blob.left + su / flux;
-  const double v = blob.top + sv / flux;
-  double uu = 0, uv = 0, vv = 0, shape_uu = 0, shape_uv = 0, shape_vv = 0;
-  for (int y = window.top; y <= window.bottom; ++y) {
-    for (int x = window.left; x <= window.right; ++x) {
-      const double i = light(x, y);
-      const double variance = pixel_variance(i, noise);
-      const double du = x - u;
-      const double dv = y - v;
-      uu += variance * du * du;
-      uv += variance * du * dv;
-      vv += variance * dv * dv;
-      shape_uu += i * du * du;
-      shape_uv += i * du * dv;
-      shape_vv += i * dv * dv;
-    }
-  }
-  dot.pixel = {u, v};
-  dot.covariance << uu / (flux * flux), uv / (flux * flux), uv / (flux * flux), vv / (flux * flux);
-  dot.flux = static_cast<float>(flux);
-  dot.snr = static_cast<float>(flux / std::sqrt(flux_variance));
-  set_shape(shape_uu / flux, shape_uv / flux, shape_vv / flux, dot);
-  return true;
+// Standard deviation of a blob's pixels, were it an even disc [px].
+double disc_sigma(const Candidate& candidate) {
+  return 0.5 * std::sqrt(candidate.area / M_PI);
 }
 
 }  // namespace
 
-bool measure_dot(const ImageView& image, bool invert, const Blob& blob, const PixelNoise& noise,
-                 const ExtractorParameters& parameters, Dot& dot) noexcept {
+DotMeasurement::DotMeasurement(int width, int height, std::size_t dots) : field_(width, height, dots) {
+  dot_of_spot_.reserve(dots);
+  widths_.reserve(kBrightest);
+}
+
+// The pixels within `radius` of (u, v); full ones and those outside the image do not count.
+void DotMeasurement::load(double u, double v, int radius) noexcept {
+  const int side = 2 * radius + 1;
+  window_.left = static_cast<int>(std::lround(u)) - radius;
+  window_.top = static_cast<int>(std::lround(v)) - radius;
+  window_.width = side;
+  window_.height = side;
+  window_.counted = 0;
+  const int padded = (side + 7) & ~7;
+  const auto fill = [&]<class Pixel>(Pixel /*type*/) {
+    const int white = image_->white_level;
+    for (int y = 0; y < side; ++y) {
+      float* light = &window_.light[static_cast<std::size_t>(y) * kSpotSide];
+      float* weight = &window_.weight[static_cast<std::size_t>(y) * kSpotSide];
+      std::fill(light, light + padded, 0.0F);
+      std::fill(weight, weight + padded, 0.0F);
+      const int row = window_.top + y;
+      if (row < 0 || row >= image_->height) continue;
+      const Pixel* pixels = image_->row<Pixel>(row);
+      const int end = std::min(side, image_->width - window_.left);
+      for (int x = std::max(0, -window_.left); x < end; ++x) {
+        const int value = invert_ ? white - pixels[window_.left + x] : pixels[window_.left + x];
+        if (value >= white) continue;
+        light[x] = static_cast<float>(value) - background_;
+        weight[x] = 1;
+        ++window_.counted;
+      }
+    }
+  };
+  if (image_->format == PixelFormat::kGrey8) {
+    fill(std::uint8_t{});
+  } else {
+    fill(std::uint16_t{});
+  }
+}
+
+void DotMeasurement::start_at(const Candidate& candidate) noexcept {
+  fit_.u = candidate.u;
+  fit_.v = candidate.v;
+  // Area of a Gaussian over its threshold: 2 π σ² ln(height / threshold).
+  const double over = std::log(std::max(1.6, candidate.height / (1.9 * candidate.noise.sigma)));
+  const double wide = std::sqrt(candidate.area / (2 * M_PI * over));
+  fit_.sigma = std::clamp(wide, width_known_ ? static_cast<double>(prior_.sigma) : 0.6, 4.0);
+  // The smoothed spot is a Gaussian of σ² + 1/12 + 1/2.
+  fit_.flux = 2 * M_PI * (fit_.sigma * fit_.sigma + 0.58) * candidate.height;
+}
+
+void DotMeasurement::start_at(const FieldSpot& spot) noexcept {
+  fit_.u = spot.u;
+  fit_.v = spot.v;
+  fit_.sigma = spot.sigma;
+  fit_.flux = spot.flux;
+}
+
+// Fits from where fit_ stands, in a window that follows place and width.
+bool DotMeasurement::fit_point(const Candidate& candidate, std::size_t self) noexcept {
+  const PixelNoise& noise = candidate.noise;
+  background_ = noise.background;
+  prior_.background_error = 0.5F * noise.sigma;
+  int radius = radius_for(fit_.sigma);
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    load(fit_.u, fit_.v, radius);
+    crowded_ = field_.take_away(self, noise.sigma, window_);
+    if (window_.counted < kLeastPixels) return false;
+    fit_spot(window_, static_cast<double>(noise.sigma) * noise.sigma, noise.gain, prior_, fit_);
+    if (!fit_.usable) return false;
+    const int wanted = radius_for(fit_.sigma);
+    const bool centred =
+        std::abs(fit_.u - (window_.left + radius)) < 1.2 && std::abs(fit_.v - (window_.top + radius)) < 1.2;
+    if (centred && wanted <= radius + (radius > 5 ? 1 : 0)) break;
+    radius = wanted;
+  }
+  return std::hypot(fit_.u - candidate.u, fit_.v - candidate.v) < 2 + fit_.sigma;
+}
+
+// A single lit pixel: its four neighbours together have less light than the narrowest spot would leave them,
+// beyond what noise explains.
+bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
+  const int x = static_cast<int>(std::lround(fit_.u)) - window_.left;
+  const int y = static_cast<int>(std::lround(fit_.v)) - window_.top;
+  if (x < 1 || y < 1 || x > window_.width - 2 || y > window_.height - 2) return false;
+  const auto at = [&](int row, int column) {
+    return static_cast<double>(window_.light[static_cast<std::size_t>(row * kSpotSide + column)]);
+  };
+  const double around = at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
+  const double narrowest =
+      width_known_ ? std::max(parameters_->min_sigma, kNarrowest * prior_.sigma) : parameters_->min_sigma;
+  const double half = 0.5 / (M_SQRT2 * narrowest);
+  const double here = std::erf(half);
+  const double beside = 0.5 * (std::erf(3 * half) - here);
+  constexpr double kSure = 3;
+  return around + kSure * 2 * candidate.noise.sigma < 4 * at(y, x) * beside / here;
+}
+
+bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept {
   dot = Dot{};
-  const Light light{image, invert, noise.background};
-  const auto area = static_cast<double>(blob.shape.n);
-  // Width of a uniform disc of this area, a fair first guess for a spot as well.
-  const double disc_sigma = 0.5 * std::sqrt(area / M_PI);
-  const int longest = std::max(blob.width(), blob.height());
-  const bool saturated = blob.saturated.n > 0;
-
-  double sigma = -1;
-  if (disc_sigma < parameters.max_point_sigma && blob.saturated.n < 5) {
-    const double u = blob.origin_u + static_cast<double>(blob.light.u) /
-                                         static_cast<double>(std::max<std::int64_t>(1, blob.light.n));
-    const double v = blob.origin_v + static_cast<double>(blob.light.v) /
-                                         static_cast<double>(std::max<std::int64_t>(1, blob.light.n));
-    sigma = measure_point(light, noise, u, v, std::max(0.6, 0.8 * disc_sigma), dot);
-  }
-  if (sigma < 0 || sigma > parameters.max_point_sigma) {
-    if (!measure_disc(light, noise, blob, dot)) return false;
-    sigma = dot.sigma_major;
-  }
-  if (!dot.pixel.allFinite() || !(dot.snr >= parameters.min_snr)) return false;
-
-  dot.peak = static_cast<float>(
-      light(std::clamp(static_cast<int>(std::lround(dot.pixel.x())), 0, image.width - 1),
-            std::clamp(static_cast<int>(std::lround(dot.pixel.y())), 0, image.height - 1)));
-  dot.background = noise.background;
-  dot.area = static_cast<std::uint16_t>(std::min<std::int64_t>(blob.shape.n, 65535));
-  if (saturated) dot.flags |= kDotSaturated;
-  if (dot.sigma_minor > 0 && dot.sigma_major > parameters.elongation * std::max(dot.sigma_minor, 0.4F) &&
-      longest > 4) {
+  if (!fit_point(candidate, self) || fit_.sigma > parameters_->max_point_sigma) return false;
+  dot.snr = static_cast<float>(fit_.flux * std::sqrt(fit_.flux_information));
+  if (!(dot.snr >= parameters_->min_snr)) return false;
+  dot.pixel = {fit_.u, fit_.v};
+  // A real spot is no Gaussian: where the pixels say so, the covariance grows with their χ².
+  const double significant = 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
+  const double misfit = fit_.chi2_per_pixel > significant ? fit_.chi2_per_pixel : 1;
+  const double threshold = 1 + kSecondOrder / (static_cast<double>(dot.snr) * dot.snr);
+  dot.covariance =
+      misfit * threshold * fit_.covariance + kModelError * kModelError * Eigen::Matrix2d::Identity();
+  dot.flux = static_cast<float>(fit_.flux);
+  const double stretch = std::hypot(fit_.stretch, fit_.skew);
+  const double sigma2 = fit_.sigma * fit_.sigma;
+  dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
+  dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
+  if (stretch > 3 * fit_.stretch_error && dot.sigma_major > parameters_->elongation * dot.sigma_minor)
     dot.flags |= kDotElongated;
+  if (candidate.saturated == 0 && is_hot_pixel(candidate)) {
+    dot.flags |= kDotHotPixel;
+    if (!parameters_->keep_hot_pixels) return false;
   }
-  if (blob.left <= 1 || blob.top <= 1 || blob.right >= image.width - 2 || blob.bottom >= image.height - 2) {
+  return true;
+}
+
+bool DotMeasurement::measure_disc(const Candidate& candidate, Dot& dot) const noexcept {
+  dot = Dot{};
+  if (candidate.peaks > 1 || disc_sigma(candidate) < kLeastDiscSigma) return false;
+  const DiscCentroid disc = disc_centroid(*image_, invert_, candidate);
+  if (!(disc.snr >= parameters_->min_snr)) return false;
+  dot.pixel = disc.centre;
+  dot.covariance = disc.covariance;
+  dot.flux = disc.flux;
+  dot.snr = disc.snr;
+  dot.sigma_major = disc.sigma_major;
+  dot.sigma_minor = disc.sigma_minor;
+  return true;
+}
+
+void DotMeasurement::finish(const Candidate& candidate, Dot& dot) const noexcept {
+  dot.peak = candidate.peak;
+  dot.background = candidate.noise.background;
+  dot.area = static_cast<std::uint16_t>(std::min(candidate.area, 65535));
+  if (candidate.saturated > 0) dot.flags |= kDotSaturated;
+  if (candidate.left <= 1 || candidate.top <= 1 || candidate.right >= image_->width - 2 ||
+      candidate.bottom >= image_->height - 2) {
     dot.flags |= kDotAtEdge;
   }
-  if (dot.sigma_major < parameters.min_sigma && !saturated) {
-    dot.flags |= kDotHotPixel;
-    if (!parameters.keep_hot_pixels) return false;
+}
+
+// Median and spread of the widths of the brightest spots that stand alone.
+void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexcept {
+  widths_.clear();
+  width_known_ = false;
+  prior_.sigma = 1.0F;
+  prior_.sigma_error = 0.7F;
+  std::size_t tried = 0;
+  for (const Candidate& candidate : candidates) {
+    if (widths_.size() == kBrightest || tried == 2 * kBrightest) break;
+    if (candidate.saturated > 0 || candidate.peaks > 1) continue;
+    if (disc_sigma(candidate) > parameters_->max_point_sigma) continue;
+    ++tried;
+    start_at(candidate);
+    if (!fit_point(candidate, field_.size())) continue;
+    if (fit_.sigma < parameters_->min_sigma || fit_.sigma > parameters_->max_point_sigma) continue;
+    if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) break;
+    widths_.push_back(static_cast<float>(fit_.sigma));
   }
-  const double extra = kPixelPhase * kPixelPhase + (saturated ? kSaturatedError * kSaturatedError : 0);
-  dot.covariance += extra * Eigen::Matrix2d::Identity();
-  return true;
+  if (widths_.size() < kEnough) return;
+  const auto median = [&] {
+    const auto middle = widths_.begin() + static_cast<std::ptrdiff_t>(widths_.size() / 2);
+    std::nth_element(widths_.begin(), middle, widths_.end());
+    return *middle;
+  };
+  const float sigma = median();
+  for (float& width : widths_) width = std::fabs(width - sigma);
+  prior_.sigma = sigma;
+  prior_.sigma_error = std::max(0.1F * sigma, 2 * median());
+  width_known_ = true;
+}
+
+// Spots in each other's light once more, now that all are known.
+void DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
+                                       std::vector<Dot>& dots) noexcept {
+  for (std::size_t i = 0; i < field_.size(); ++i) {
+    if (dot_of_spot_[i] < 0) continue;
+    start_at(field_[i]);
+    background_ = candidates[i].noise.background;
+    load(fit_.u, fit_.v, radius_for(fit_.sigma));
+    if (!field_.take_away(i, candidates[i].noise.sigma, window_)) continue;
+    Dot dot;
+    if (measure_point(candidates[i], i, dot) &&
+        !field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) {
+      finish(candidates[i], dot);
+      FieldSpot& spot = field_[i];
+      spot.u = static_cast<float>(fit_.u);
+      spot.v = static_cast<float>(fit_.v);
+      spot.sigma = static_cast<float>(fit_.sigma);
+      spot.flux = static_cast<float>(fit_.flux);
+      dots[static_cast<std::size_t>(dot_of_spot_[i])] = dot;
+    } else {
+      field_[i].flux = 0;
+      dots[static_cast<std::size_t>(dot_of_spot_[i])].snr = 0;
+      dot_of_spot_[i] = -1;
+    }
+  }
+}
+
+void DotMeasurement::measure(const ImageView& image, bool invert, const ExtractorParameters& parameters,
+                             std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept {
+  image_ = &image;
+  parameters_ = &parameters;
+  invert_ = invert;
+  field_.clear();
+  dot_of_spot_.clear();
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.height != b.height) return a.height > b.height;
+    return a.v != b.v ? a.v < b.v : a.u < b.u;
+  });
+  learn_width(candidates);
+  // Peaks of one blob are taken to be spots before they are measured: their light must not draw each other.
+  for (const Candidate& candidate : candidates) {
+    FieldSpot spot;
+    spot.u = candidate.u;
+    spot.v = candidate.v;
+    if (candidate.peaks > 1) {
+      spot.sigma = prior_.sigma;
+      spot.flux = static_cast<float>(2 * M_PI) * (spot.sigma * spot.sigma + 0.58F) * candidate.height;
+    }
+    field_.add(spot);
+    dot_of_spot_.push_back(-1);
+  }
+  for (std::size_t i = 0; i < candidates.size() && dots.size() < dots.capacity(); ++i) {
+    const Candidate& candidate = candidates[i];
+    Dot dot;
+    start_at(candidate);
+    FieldSpot& spot = field_[i];
+    if (spot.flux > 0) start_at(spot);
+    const bool point = disc_sigma(candidate) < parameters.max_point_sigma && measure_point(candidate, i, dot);
+    spot.flux = 0;
+    if (point) {
+      if (field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) continue;
+      spot.u = static_cast<float>(fit_.u);
+      spot.v = static_cast<float>(fit_.v);
+      spot.sigma = static_cast<float>(fit_.sigma);
+      spot.flux = static_cast<float>(fit_.flux);
+      dot_of_spot_[i] = static_cast<int>(dots.size());
+    } else if (!measure_disc(candidate, dot)) {
+      continue;
+    }
+    finish(candidate, dot);
+    dots.push_back(dot);
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) remeasure_crowded(candidates, dots);
+  std::erase_if(dots, [](const Dot& dot) { return dot.snr == 0; });
 }
 
 }  // namespace omma

@@ -1,26 +1,56 @@
-// Measures one dot on the grey image: centre with covariance, flux, shape. Points of light get an iterated
-// Gaussian-weighted centroid whose window takes the spot's own width; wide discs their plain grey-level
-// centroid. Source: Bertin & Arnouts 1996 (windowed positions and their errors, ERRWIN); Bernstein & Jarvis
-// 2002, AJ 123, 583 (adaptive moments); formulas in docs/algorithms/extractor.md#centroid.
+// Measures the dots of one image on its grey levels, the brightest first: points of light by a least-squares
+// fit of a Gaussian spot, with the light of their neighbours taken away; wide discs by their grey-level
+// centroid. The width of the image's point spread is learnt from its brightest spots and steadies the faint
+// ones. Formulas in docs/algorithms/extractor.md#measurement.
 #pragma once
 
-#include "components/extractor/blob_finder.hpp"
+#include <cstdint>
+#include <vector>
+
+#include "components/extractor/candidate.hpp"
 #include "components/extractor/dot.hpp"
 #include "components/extractor/extractor_parameters.hpp"
+#include "components/extractor/spot_field.hpp"
+#include "components/extractor/spot_fit.hpp"
 #include "hal/image.hpp"
 
 namespace omma {
 
-/// What is known of the pixels around a dot.
-struct PixelNoise {
-  float background = 0;  ///< local, dark dots already turned into bright ones [grey levels]
-  float sigma = 1;       ///< standard deviation of a pixel of the background [grey levels]
-  float gain = 0;        ///< electrons per grey level; 0: no photon noise above the background's
-};
+class DotMeasurement {
+ public:
+  /// For images of at most this size, and at most so many dots; nothing is allocated later.
+  DotMeasurement(int width, int height, std::size_t dots);
 
-/// @param invert  the dots are darker than the background
-/// @return false where there is nothing to measure (a hot pixel, no light over the background)
-bool measure_dot(const ImageView& image, bool invert, const Blob& blob, const PixelNoise& noise,
-                 const ExtractorParameters& parameters, Dot& dot) noexcept;
+  /// Measures the candidates and adds what is found to `dots`, up to their capacity.
+  /// @param invert      the dots are darker than the background
+  /// @param candidates  are put into order, brightest first
+  void measure(const ImageView& image, bool invert, const ExtractorParameters& parameters,
+               std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+
+ private:
+  void learn_width(const std::vector<Candidate>& candidates) noexcept;
+  bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
+  bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
+  void start_at(const Candidate& candidate) noexcept;
+  void start_at(const FieldSpot& spot) noexcept;
+  bool fit_point(const Candidate& candidate, std::size_t self) noexcept;
+  void load(double u, double v, int radius) noexcept;
+  bool is_hot_pixel(const Candidate& candidate) const noexcept;
+  void remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+  void finish(const Candidate& candidate, Dot& dot) const noexcept;
+
+  const ImageView* image_ = nullptr;  // while measure runs
+  const ExtractorParameters* parameters_ = nullptr;
+  bool invert_ = false;
+  float background_ = 0;  // of the candidate at hand
+  SpotWindow window_;
+  SpotFit fit_;
+  bool crowded_ = false;  // light of a neighbour was in the window
+  SpotPrior prior_;
+  bool width_known_ = false;
+  SpotField field_;               // one spot a candidate
+  std::vector<int> dot_of_spot_;  // −1: none
+  std::vector<float> widths_;
+};
 
 }  // namespace omma

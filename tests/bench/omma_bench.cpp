@@ -15,6 +15,8 @@ struct Bench {
 // One line a bench.
 constexpr Bench kBenches[] = {
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
+    {"extract", omma::bench_extract,
+     "dots of synthetic images: time over memcpy, error over bound, NEES, recall, false dots"},
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"lens", omma::bench_lens, "pixel to bearing and back, each lens model: time per call"},
     {"jitter", omma::bench_jitter, "lateness of steps against a bare clock_nanosleep loop in the same run"},

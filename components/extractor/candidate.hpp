@@ -1,0 +1,25 @@
+// Candidate: a blob of pixels over the threshold on its way to being a dot.
+#pragma once
+
+namespace omma {
+
+/// What is known of the pixels around a dot.
+struct PixelNoise {
+  float background = 0;  ///< local, dark dots already turned into bright ones [grey levels]
+  float sigma = 1;       ///< standard deviation of a pixel of the background [grey levels]
+  float gain = 0;        ///< electrons per grey level
+};
+
+struct Candidate {
+  int left = 0, right = 0, top = 0, bottom = 0;  ///< bounding box, inclusive [px]
+  int area = 0;                                  ///< pixels over the threshold
+  int saturated = 0;                             ///< of them full
+  float u = 0, v = 0;                            ///< centroid of its light over the background [px]
+  float light = 0;                               ///< sum over the background [grey levels]
+  float peak = 0;                                ///< brightest pixel over the background [grey levels]
+  float height = 0;  ///< its smoothed light where that is highest, over the background [grey levels]
+  int peaks = 1;     ///< of the blob that this is one of
+  PixelNoise noise;
+};
+
+}  // namespace omma

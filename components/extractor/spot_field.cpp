@@ -1,0 +1,93 @@
+#include "components/extractor/spot_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace omma {
+namespace {
+
+constexpr float kNeighbourError = 0.1F;  // a neighbour's light is known to this share of it
+constexpr float kNoLight = 0.1F;         // [standard deviations of a pixel]
+
+float reach(const FieldSpot& spot) {
+  return std::min(16.0F, 4 * spot.sigma + 1);
+}
+
+}  // namespace
+
+SpotField::SpotField(int width, int height, std::size_t spots)
+    : columns_((width + kCell - 1) / kCell), rows_((height + kCell - 1) / kCell) {
+  first_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  spots_.reserve(spots);
+  clear();
+}
+
+void SpotField::clear() noexcept {
+  std::fill(first_.begin(), first_.end(), -1);
+  spots_.clear();
+}
+
+std::size_t SpotField::add(const FieldSpot& spot) noexcept {
+  const int column = std::clamp(static_cast<int>(spot.u) / kCell, 0, columns_ - 1);
+  const int row = std::clamp(static_cast<int>(spot.v) / kCell, 0, rows_ - 1);
+  int& head = first_[static_cast<std::size_t>(row * columns_ + column)];
+  spots_.push_back(spot);
+  spots_.back().next = head;
+  head = static_cast<int>(spots_.size()) - 1;
+  return spots_.size() - 1;
+}
+
+template <class Visit>
+void SpotField::for_near(float u, float v, Visit&& visit) const noexcept {
+  const int column = static_cast<int>(u) / kCell;
+  const int row = static_cast<int>(v) / kCell;
+  for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+    for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
+      for (int i = first_[static_cast<std::size_t>(r * columns_ + c)]; i >= 0;
+           i = spots_[static_cast<std::size_t>(i)].next) {
+        const FieldSpot& spot = spots_[static_cast<std::size_t>(i)];
+        if (spot.flux > 0) visit(static_cast<std::size_t>(i), spot);
+      }
+    }
+  }
+}
+
+bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) const noexcept {
+  const float half = 0.5F * static_cast<float>(window.width);
+  const float middle_u = static_cast<float>(window.left) + half - 0.5F;
+  const float middle_v = static_cast<float>(window.top) + half - 0.5F;
+  const float least = kNoLight * noise;
+  const float per_variance = kNeighbourError * kNeighbourError / (noise * noise);
+  bool any = false;
+  for_near(middle_u, middle_v, [&](std::size_t i, const FieldSpot& spot) {
+    const float far = half + reach(spot);
+    if (i == self || std::fabs(spot.u - middle_u) > far || std::fabs(spot.v - middle_v) > far) return;
+    SpotProfile along_u, along_v;
+    along_u.fill(spot.u - static_cast<float>(window.left), spot.sigma, window.width);
+    along_v.fill(spot.v - static_cast<float>(window.top), spot.sigma, window.height);
+    for (int y = 0; y < window.height; ++y) {
+      const float row = spot.flux * along_v.share[static_cast<std::size_t>(y)];
+      if (row < least) continue;
+      for (int x = 0; x < window.width; ++x) {
+        const float there = row * along_u.share[static_cast<std::size_t>(x)];
+        if (there < least) continue;
+        any = true;
+        const auto k = static_cast<std::size_t>(y * kSpotSide + x);
+        window.light[k] -= there;
+        window.weight[k] /= 1 + per_variance * there * there;
+      }
+    }
+  });
+  return any;
+}
+
+bool SpotField::has_twin(std::size_t self, float u, float v) const noexcept {
+  bool found = false;
+  for_near(u, v, [&](std::size_t i, const FieldSpot& spot) {
+    const float distance = std::hypot(spot.u - u, spot.v - v);
+    found = found || (i != self && distance < std::max(1.0F, 1.2F * spot.sigma));
+  });
+  return found;
+}
+
+}  // namespace omma

@@ -1,0 +1,49 @@
+// The spots of one image as each other's neighbours: who is near whom, and whose light falls into a window.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "components/extractor/spot_fit.hpp"
+
+namespace omma {
+
+/// A point of light as its neighbours see it.
+struct FieldSpot {
+  float u = 0, v = 0;  ///< [px]
+  float sigma = 1;     ///< [px]
+  float flux = 0;      ///< [grey levels]; 0: there is none after all
+  int next = -1;       ///< in the same cell of the field
+};
+
+class SpotField {
+ public:
+  static constexpr int kCell = 32;  ///< side of a cell [px]; no spot's light reaches further
+
+  /// Allocates for images of at most this size and so many spots; nothing is allocated later.
+  SpotField(int width, int height, std::size_t spots);
+
+  void clear() noexcept;
+  /// @return its number; there must be room
+  std::size_t add(const FieldSpot& spot) noexcept;
+  FieldSpot& operator[](std::size_t i) noexcept { return spots_[i]; }
+  std::size_t size() const noexcept { return spots_.size(); }
+
+  /// Takes the light of all spots but number `self` out of the window, and trusts the pixels less where it
+  /// was.
+  /// @param noise  standard deviation of a pixel [grey levels]
+  /// @return whether there was any to speak of
+  bool take_away(std::size_t self, float noise, SpotWindow& window) const noexcept;
+  /// Whether another spot than number `self` is so near that the two cannot be told apart.
+  bool has_twin(std::size_t self, float u, float v) const noexcept;
+
+ private:
+  template <class Visit>
+  void for_near(float u, float v, Visit&& visit) const noexcept;
+
+  int columns_, rows_;
+  std::vector<int> first_;  // of each cell
+  std::vector<FieldSpot> spots_;
+};
+
+}  // namespace omma

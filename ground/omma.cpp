@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/calibrate/calibrate.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
 #include "ground/design/design.hpp"
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
   omma::ground::add_record(app, context);
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
+  omma::ground::add_calibrate(app, context);
   omma::ground::add_design(app, context);
   omma::ground::add_stars(app, context);
   try {

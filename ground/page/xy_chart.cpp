@@ -49,7 +49,7 @@ class Scale {
     }
     const double step = round_step((high_ - low_) / 5);
     for (double k = std::ceil(low_ / step - 1e-9); k * step <= high_ + 1e-9 * step; ++k)
-      at.push_back(k * step);
+      at.push_back(k * step + 0.0);  // + 0: no "-0"
     return at;
   }
 

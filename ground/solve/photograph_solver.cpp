@@ -85,6 +85,7 @@ struct PhotographSolver::Work {
     return dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
   }
   void finish(PhotographSolution& solution) const;
+  PhotographSolution solve();
 
   Rig rig;
   SolverOptions options;
@@ -190,32 +191,49 @@ const DotLists& PhotographSolver::dots() const {
 }
 
 PhotographSolution PhotographSolver::solve(const std::vector<ImageView>& images) {
-  PhotographSolution solution;
   Stopwatch stopwatch;
   work_->extract(images);
-  solution.times.extract_ms = stopwatch.lap_ms();
-  const bool identified = work_->identify(solution);
+  const double extract_ms = stopwatch.lap_ms();
+  PhotographSolution solution = work_->solve();
+  solution.times.extract_ms = extract_ms;
+  return solution;
+}
+
+PhotographSolution PhotographSolver::solve(const DotLists& dots) {
+  work_->dots = dots;
+  return work_->solve();
+}
+
+DotLists PhotographSolver::find_dots(const std::vector<ImageView>& images) {
+  work_->extract(images);
+  return work_->dots;
+}
+
+PhotographSolution PhotographSolver::Work::solve() {
+  PhotographSolution solution;
+  Stopwatch stopwatch;
+  const bool found = identify(solution);
   solution.times.identify_ms = stopwatch.lap_ms();
-  if (!identified) return solution;
+  if (!found) return solution;
 
   // The dots' own covariances do not know what the lens file is wrong by; the residuals do. Solve with a
   // guess, measure, solve again with what was measured: the uncertainty reported then includes it.
-  PredictedAttitude attitude{work_->identified.rig_from_j2000, work_->identified.covariance};
-  double error = kLensErrorAtFirst * work_->identified.widening;
+  PredictedAttitude attitude{identified.rig_from_j2000, identified.covariance};
+  double error = kLensErrorAtFirst * identified.widening;
   for (int pass = 0; pass < kPasses; ++pass) {
-    work_->pair_and_solve(attitude, error, solution);
+    pair_and_solve(attitude, error, solution);
     if (solution.attitude.status != SolveStatus::kSolved &&
         solution.attitude.status != SolveStatus::kIterationCap) {
       solution.reason = "identified stars do not agree on one attitude";
       return solution;
     }
-    work_->residuals(solution);
+    residuals(solution);
     attitude = {solution.attitude.rig_from_j2000, solution.attitude.covariance};
-    error = work_->lens_error(solution);
+    error = lens_error(solution);
   }
   solution.times.attitude_ms = stopwatch.lap_ms();
   solution.solved = true;
-  work_->finish(solution);
+  finish(solution);
   return solution;
 }
 

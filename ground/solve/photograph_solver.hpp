@@ -65,6 +65,11 @@ class PhotographSolver {
   /// @param images  one per camera of the rig; an empty view where a camera has none
   PhotographSolution solve(const std::vector<ImageView>& images);
 
+  /// The same from dots found before (by `find_dots`, one list a camera; a camera without an image has none).
+  PhotographSolution solve(const DotLists& dots);
+  /// The dots of images, as `solve` finds them.
+  DotLists find_dots(const std::vector<ImageView>& images);
+
   /// The dots of the images solved last.
   const DotLists& dots() const;
 

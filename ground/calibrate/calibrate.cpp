@@ -1,0 +1,11 @@
+#include "ground/calibrate/calibrate.hpp"
+
+namespace omma::ground {
+
+void add_calibrate(CLI::App& app, CommandContext& context) {
+  CLI::App* command = app.add_subcommand("calibrate", "Lenses and rigs from images");
+  command->require_subcommand(1);
+  add_calibrate_sky(*command, context);
+}
+
+}  // namespace omma::ground

@@ -8,7 +8,7 @@
 namespace omma::ground {
 namespace {
 
-constexpr int kAround = 12;
+constexpr Eigen::Index kAround = 12;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ std::vector<double> lens_deviations(const LensShape& shape, const Eigen::MatrixX
   if (!lens) return deviations;
   const auto size = shape.parameters.size();
   const Eigen::VectorXd steps = shape.steps();
-  const auto rows = static_cast<Eigen::Index>(2 * kAround * angles.size());
+  const auto rows = 2 * kAround * static_cast<Eigen::Index>(angles.size());
   Eigen::MatrixXd by_lens = Eigen::MatrixXd::Zero(rows, size);
   Eigen::MatrixXd by_turn = Eigen::MatrixXd::Zero(rows, 3);
   std::vector<int> seen(angles.size(), 0);
@@ -30,11 +30,11 @@ std::vector<double> lens_deviations(const LensShape& shape, const Eigen::MatrixX
     moved.push_back(up.lens().value_or(*lens));
   }
   for (std::size_t a = 0; a < angles.size(); ++a) {
-    for (int k = 0; k < kAround; ++k) {
-      const double round = 2 * M_PI * (k + 0.5) / kAround;
+    for (Eigen::Index k = 0; k < kAround; ++k) {
+      const double round = 2 * M_PI * (double(k) + 0.5) / kAround;
       const Eigen::Vector3d direction(std::sin(angles[a]) * std::cos(round),
                                       std::sin(angles[a]) * std::sin(round), std::cos(angles[a]));
-      const auto row = static_cast<Eigen::Index>(2 * (a * kAround + static_cast<std::size_t>(k)));
+      const auto row = 2 * (static_cast<Eigen::Index>(a) * kAround + k);
       Eigen::Vector2d pixel;
       Eigen::Matrix<double, 2, 3> by_direction;
       if (!lens->project(direction, pixel, by_direction)) continue;
@@ -51,7 +51,7 @@ std::vector<double> lens_deviations(const LensShape& shape, const Eigen::MatrixX
   const Eigen::MatrixXd spread = without_turn * covariance * without_turn.transpose();
   for (std::size_t a = 0; a < angles.size(); ++a) {
     if (seen[a] == 0) continue;
-    const auto first = static_cast<Eigen::Index>(2 * kAround * a);
+    const auto first = 2 * kAround * static_cast<Eigen::Index>(a);
     deviations[a] = std::sqrt(spread.diagonal().segment(first, 2 * kAround).sum() / (2 * seen[a]));
   }
   return deviations;

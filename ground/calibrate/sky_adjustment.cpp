@@ -47,7 +47,7 @@ std::vector<bool> held_unknowns(const SkyRig& rig, const Layout& layout, const A
       const bool aspect = ocam ? k == 2 || k == 3 : k == 3;
       const int radial = ocam ? k - 4 : (k == 2 ? 0 : k - 3);
       const bool is_radial = k >= 2 && !aspect;
-      held[static_cast<std::size_t>(layout.lens[c] + k)] =
+      held[static_cast<std::size_t>(layout.lens[c]) + static_cast<std::size_t>(k)] =
           (aspect && !options.free_aspect) || (is_radial && radial >= options.free_radial);
     }
   }

@@ -31,9 +31,10 @@ Rig rig_with(const Rig& guess, const std::vector<LensShape>& shapes) {
 // 1, up and down in turn, ever farther.
 std::vector<double> focal_factors(double most) {
   std::vector<double> factors{1.0};
-  for (double factor = kFocalStep; factor <= most; factor *= kFocalStep) {
-    factors.push_back(factor);
-    factors.push_back(1 / factor);
+  const int steps = static_cast<int>(std::log(most) / std::log(kFocalStep));
+  for (int k = 1; k <= steps; ++k) {
+    factors.push_back(std::pow(kFocalStep, k));
+    factors.push_back(std::pow(kFocalStep, -k));
   }
   return factors;
 }

@@ -44,14 +44,14 @@ void DotMeasurement::load(double u, double v, int radius) noexcept {
   window_.width = side;
   window_.height = side;
   window_.counted = 0;
-  const int padded = (side + 7) & ~7;
+  const int all = padded(side);
   const auto fill = [&]<class Pixel>(Pixel /*type*/) {
     const int white = image_->white_level;
     for (int y = 0; y < side; ++y) {
       float* light = &window_.light[static_cast<std::size_t>(y) * kSpotSide];
       float* weight = &window_.weight[static_cast<std::size_t>(y) * kSpotSide];
-      std::fill(light, light + padded, 0.0F);
-      std::fill(weight, weight + padded, 0.0F);
+      std::fill(light, light + all, 0.0F);
+      std::fill(weight, weight + all, 0.0F);
       const int row = window_.top + y;
       if (row < 0 || row >= image_->height) continue;
       const Pixel* pixels = image_->row<Pixel>(row);
@@ -147,7 +147,7 @@ bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self,
   const double sigma2 = fit_.sigma * fit_.sigma;
   dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
   dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
-  if (stretch > 3 * fit_.stretch_error && dot.sigma_major > parameters_->elongation * dot.sigma_minor)
+  if (stretch > 3 * fit_.shape_error && dot.sigma_major > parameters_->elongation * dot.sigma_minor)
     dot.flags |= kDotElongated;
   if (candidate.saturated == 0 && is_hot_pixel(candidate)) {
     dot.flags |= kDotHotPixel;

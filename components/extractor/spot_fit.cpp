@@ -3,151 +3,187 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/extractor/float4.hpp"
+
 namespace omma {
 namespace {
 
-constexpr int kLanes = 8;
+constexpr std::size_t kLanes = 4;
+constexpr std::size_t kGroups = kSpotSide / kLanes;
 constexpr int kIterations = 10;
-constexpr int kUnknowns = 5;  // flux, u, v, sigma, background
-constexpr double kLeastSigma = 0.2;
-constexpr double kLargestSigma = 5.0;
-
-using Lanes = std::array<float, kLanes>;
+// Unknowns: flux, sigma, background, u, v, in this order, so that the last block of the Cholesky factor is
+// the place's, all else unknown.
+constexpr int kUnknowns = 5;
+constexpr double kLeastSigma = 0.2;    // [px]
+constexpr double kLargestSigma = 5.0;  // [px]
+// A step this small against the place's own error is the last: the next would be its square.
+constexpr double kLastStep = 0.12;
 
 // Sums over the rows, column by column: of the weight times products of the row's factors E, D = ∂E/∂v,
 // S = ∂E/∂σ, and of the weighted residual times the factors. The model is a product of a row's factor and a
 // column's, so everything the normal equations need follows from these.
 struct ColumnSums {
-  Lanes ee{}, ed{}, es{}, dd{}, ds{}, ss{}, e{}, d{}, s{}, one{};
-  Lanes re{}, rd{}, rs{}, r{}, rr{};
+  Float4 ee{}, ed{}, es{}, dd{}, ds{}, ss{}, e{}, d{}, s{}, one{};
+  Float4 re{}, rd{}, rs{}, r{}, rr{};
 };
 
 struct NormalEquations {
-  double h[kUnknowns][kUnknowns] = {};  // upper triangle
-  double g[kUnknowns] = {};
-  double chi2 = 0;
-  // The two shapes that a round model leaves out: their scores and informations.
-  double skew_score = 0, skew_information = 0, stretch_score = 0, stretch_information = 0;
+  double h[kUnknowns][kUnknowns];  // lower triangle
+  double g[kUnknowns];
+  double chi2;
 };
 
-void sum_columns(const SpotWindow& window, int first, const SpotProfile& along_u, const SpotProfile& along_v,
-                 float flux, float background, float variance, float per_gain, ColumnSums& sums) {
-  for (int y = 0; y < window.height; ++y) {
-    const auto row = static_cast<std::size_t>(y * kSpotSide + first);
-    const float e = along_v.share[static_cast<std::size_t>(y)];
-    const float d = along_v.by_place[static_cast<std::size_t>(y)];
-    const float s = along_v.by_sigma[static_cast<std::size_t>(y)];
-    const float fe = flux * e;
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      const float spot = fe * along_u.share[static_cast<std::size_t>(first) + i];
-      const float w = window.weight[row + i] / (variance + per_gain * spot);
-      const float residual = window.light[row + i] - spot - background;
-      const float wr = w * residual;
-      const float we = w * e;
-      const float wd = w * d;
-      const float ws = w * s;
-      sums.one[i] += w;
-      sums.e[i] += we;
-      sums.d[i] += wd;
-      sums.s[i] += ws;
-      sums.ee[i] += we * e;
-      sums.ed[i] += we * d;
-      sums.es[i] += we * s;
-      sums.dd[i] += wd * d;
-      sums.ds[i] += wd * s;
-      sums.ss[i] += ws * s;
-      sums.r[i] += wr;
-      sums.re[i] += wr * e;
-      sums.rd[i] += wr * d;
-      sums.rs[i] += wr * s;
-      sums.rr[i] += wr * residual;
-    }
+struct State {
+  double flux, sigma, background, u, v;
+};
+
+ColumnSums sum_columns(const SpotWindow& window, std::size_t first, const SpotProfile& along_u,
+                       const SpotProfile& along_v, const State& at, float variance, float per_gain) {
+  ColumnSums sums;
+  const Float4 across = static_cast<float>(at.flux) * load4(&along_u.share[first]);
+  const auto background = static_cast<float>(at.background);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(window.height); ++y) {
+    const float e = along_v.share[y];
+    const float d = along_v.by_place[y];
+    const float s = along_v.by_sigma[y];
+    const Float4 spot = across * e;
+    const Float4 w = load4(&window.weight[y * kSpotSide + first]) / (variance + per_gain * spot);
+    const Float4 residual = load4(&window.light[y * kSpotSide + first]) - spot - background;
+    const Float4 wr = w * residual;
+    const Float4 we = w * e;
+    const Float4 wd = w * d;
+    const Float4 ws = w * s;
+    sums.one += w;
+    sums.e += we;
+    sums.d += wd;
+    sums.s += ws;
+    sums.ee += we * e;
+    sums.ed += we * d;
+    sums.es += we * s;
+    sums.dd += wd * d;
+    sums.ds += wd * s;
+    sums.ss += ws * s;
+    sums.r += wr;
+    sums.re += wr * e;
+    sums.rd += wr * d;
+    sums.rs += wr * s;
+    sums.rr += wr * residual;
   }
+  return sums;
 }
 
-void add_columns(const ColumnSums& c, const SpotProfile& along_u, int first, float a, NormalEquations& n) {
-  float aa = 0, au = 0, av = 0, as = 0, ab = 0, uu = 0, uv = 0, us = 0, ub = 0, vv = 0, vs = 0, vb = 0,
-        ss = 0, sb = 0, bb = 0, ga = 0, gu = 0, gv = 0, gs = 0, gb = 0, chi2 = 0, kg = 0, kk = 0, tg = 0,
-        tt = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const float e = along_u.share[static_cast<std::size_t>(first) + i];
-    const float d = along_u.by_place[static_cast<std::size_t>(first) + i];
-    const float s = along_u.by_sigma[static_cast<std::size_t>(first) + i];
-    const float e_ee = e * c.ee[i];
-    const float e_ed = e * c.ed[i];
-    const float s_ee_e_es = s * c.ee[i] + e * c.es[i];
+using ColumnGroups = std::array<ColumnSums, kGroups>;
+
+NormalEquations normal_equations(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u,
+                                 double flux) {
+  Float4 aa{}, as{}, ab{}, au{}, av{}, ss{}, sb{}, su{}, sv{}, bb{}, bu{}, bv{}, uu{}, uv{}, vv{};
+  Float4 ga{}, gs{}, gb{}, gu{}, gv{}, rr{};
+  for (std::size_t k = 0; k < used; ++k) {
+    const ColumnSums& c = groups[k];
+    const Float4 e = load4(&along_u.share[kLanes * k]);
+    const Float4 d = load4(&along_u.by_place[kLanes * k]);
+    const Float4 s = load4(&along_u.by_sigma[kLanes * k]);
+    const Float4 e_ee = e * c.ee;
+    const Float4 e_ed = e * c.ed;
+    const Float4 by_sigma = s * c.ee + e * c.es;
     aa += e * e_ee;
+    as += e * by_sigma;
+    ab += e * c.e;
     au += d * e_ee;
     av += e * e_ed;
-    as += e * s_ee_e_es;
-    ab += e * c.e[i];
-    uu += d * d * c.ee[i];
+    ss += s * by_sigma + e * (s * c.es + e * c.ss);
+    sb += s * c.e + e * c.s;
+    su += d * by_sigma;
+    sv += e * (s * c.ed + e * c.ds);
+    bb += c.one;
+    bu += d * c.e;
+    bv += e * c.d;
+    uu += d * d * c.ee;
     uv += d * e_ed;
-    us += d * s_ee_e_es;
-    ub += d * c.e[i];
-    vv += e * e * c.dd[i];
-    vs += e * (s * c.ed[i] + e * c.ds[i]);
-    vb += e * c.d[i];
-    ss += s * (s * c.ee[i] + 2 * e * c.es[i]) + e * e * c.ss[i];
-    sb += s * c.e[i] + e * c.s[i];
-    bb += c.one[i];
-    ga += e * c.re[i];
-    gu += d * c.re[i];
-    gv += e * c.rd[i];
-    gs += s * c.re[i] + e * c.rs[i];
-    gb += c.r[i];
-    chi2 += c.rr[i];
-    kg += d * c.rd[i];
-    kk += d * d * c.dd[i];
-    tg += s * c.re[i] - e * c.rs[i];
-    tt += s * (s * c.ee[i] - 2 * e * c.es[i]) + e * e * c.ss[i];
+    vv += e * e * c.dd;
+    ga += e * c.re;
+    gs += s * c.re + e * c.rs;
+    gb += c.r;
+    gu += d * c.re;
+    gv += e * c.rd;
+    rr += c.rr;
   }
-  const double f = a;
-  const double upper[kUnknowns][kUnknowns] = {{aa, f * au, f * av, f * as, ab},
-                                              {0, f * f * uu, f * f * uv, f * f * us, f * ub},
-                                              {0, 0, f * f * vv, f * f * vs, f * vb},
-                                              {0, 0, 0, f * f * ss, f * sb},
-                                              {0, 0, 0, 0, bb}};
-  for (int i = 0; i < kUnknowns; ++i)
-    for (int j = i; j < kUnknowns; ++j) n.h[i][j] += upper[i][j];
-  const double gradient[kUnknowns] = {ga, f * gu, f * gv, f * gs, gb};
-  for (int i = 0; i < kUnknowns; ++i) n.g[i] += gradient[i];
-  n.chi2 += chi2;
-  n.skew_score += f * kg;
-  n.skew_information += f * f * kk;
-  n.stretch_score += f * tg;
-  n.stretch_information += f * f * tt;
+  const double f = flux;
+  const auto sum = [](Float4 x) { return static_cast<double>(sum4(x)); };
+  return {{{sum(aa)},
+           {f * sum(as), f * f * sum(ss)},
+           {sum(ab), f * sum(sb), sum(bb)},
+           {f * sum(au), f * f * sum(su), f * sum(bu), f * f * sum(uu)},
+           {f * sum(av), f * f * sum(sv), f * sum(bv), f * f * sum(uv), f * f * sum(vv)}},
+          {sum(ga), f * sum(gs), sum(gb), f * sum(gu), f * sum(gv)},
+          sum(rr)};
 }
 
-// Cholesky factor L of the symmetric matrix whose upper triangle is h, in place below the diagonal.
-bool factor(double h[kUnknowns][kUnknowns], double l[kUnknowns][kUnknowns]) {
-  for (int i = 0; i < kUnknowns; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      double sum = h[j][i];
-      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      if (i == j) {
-        if (!(sum > 0)) return false;
-        l[i][i] = std::sqrt(sum);
-      } else {
-        l[i][j] = sum / l[j][j];
-      }
+// Lower Cholesky factor and the reciprocals of its diagonal.
+struct Factor {
+  double l[kUnknowns][kUnknowns];
+  double inverse[kUnknowns];
+};
+
+bool factorise(const double h[kUnknowns][kUnknowns], Factor& f) {
+  for (int j = 0; j < kUnknowns; ++j) {
+    double diagonal = h[j][j];
+    for (int k = 0; k < j; ++k) diagonal -= f.l[j][k] * f.l[j][k];
+    if (!(diagonal > 0)) return false;
+    f.l[j][j] = std::sqrt(diagonal);
+    f.inverse[j] = 1 / f.l[j][j];
+    for (int i = j + 1; i < kUnknowns; ++i) {
+      double sum = h[i][j];
+      for (int k = 0; k < j; ++k) sum -= f.l[i][k] * f.l[j][k];
+      f.l[i][j] = sum * f.inverse[j];
     }
   }
   return true;
 }
 
-void solve(const double l[kUnknowns][kUnknowns], const double* g, double* x) {
+void solve(const Factor& f, const double* g, double* x) {
   double y[kUnknowns];
   for (int i = 0; i < kUnknowns; ++i) {
     double sum = g[i];
-    for (int k = 0; k < i; ++k) sum -= l[i][k] * y[k];
-    y[i] = sum / l[i][i];
+    for (int k = 0; k < i; ++k) sum -= f.l[i][k] * y[k];
+    y[i] = sum * f.inverse[i];
   }
   for (int i = kUnknowns - 1; i >= 0; --i) {
     double sum = y[i];
-    for (int k = i + 1; k < kUnknowns; ++k) sum -= l[k][i] * x[k];
-    x[i] = sum / l[i][i];
+    for (int k = i + 1; k < kUnknowns; ++k) sum -= f.l[k][i] * x[k];
+    x[i] = sum * f.inverse[i];
   }
+}
+
+// The two shapes that a round model leaves out, from their scores and informations at the solution.
+void set_shape(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u, double flux,
+               double sigma, SpotFit& fit) {
+  Float4 skew_score{}, skew_information{}, stretch_score{}, stretch_information{};
+  for (std::size_t k = 0; k < used; ++k) {
+    const ColumnSums& c = groups[k];
+    const Float4 e = load4(&along_u.share[kLanes * k]);
+    const Float4 d = load4(&along_u.by_place[kLanes * k]);
+    const Float4 s = load4(&along_u.by_sigma[kLanes * k]);
+    skew_score += d * c.rd;
+    skew_information += d * d * c.dd;
+    stretch_score += s * c.re - e * c.rs;
+    stretch_information += s * (s * c.ee - 2.0F * e * c.es) + e * e * c.ss;
+  }
+  const double skewed = flux * static_cast<double>(sum4(skew_information));
+  const double stretched = flux * static_cast<double>(sum4(stretch_information));
+  fit.skew = skewed > 0 ? static_cast<double>(sum4(skew_score)) / skewed : 0;
+  fit.stretch = stretched > 0 ? 2 * sigma * static_cast<double>(sum4(stretch_score)) / stretched : 0;
+  fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
+}
+
+// Covariance of the place from the last block of the factor: the inverse of L Lᵀ.
+Eigen::Matrix2d covariance_of_place(const Factor& f) {
+  const double a = f.inverse[3];
+  const double c = f.inverse[4];
+  const double b = -f.l[4][3] * a * c;  // L⁻¹ = [a 0; b c]
+  Eigen::Matrix2d covariance;
+  covariance << a * a + b * b, b * c, b * c, c * c;
+  return covariance;
 }
 
 }  // namespace
@@ -159,72 +195,59 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
   const double sigma_information = 1.0 / (static_cast<double>(prior.sigma_error) * prior.sigma_error);
   const double background_information =
       1.0 / (static_cast<double>(prior.background_error) * prior.background_error);
-  double flux = fit.flux;
-  double u = fit.u - window.left;
-  double v = fit.v - window.top;
-  double sigma = fit.sigma;
-  double background = 0;
+  State at{fit.flux, fit.sigma, 0, fit.u - window.left, fit.v - window.top};
+  const std::size_t used = static_cast<std::size_t>(padded(window.width)) / kLanes;
+  SpotProfile along_u, along_v;
+  ColumnGroups groups;
   NormalEquations n;
-  double l[kUnknowns][kUnknowns];
+  Factor factor;
+  double step[kUnknowns] = {};
   fit.usable = false;
   bool settled = false;
-  double step[kUnknowns] = {};
-  double aa = 0;
-  for (int k = 0; k <= kIterations; ++k) {
-    SpotProfile along_u, along_v;
-    along_u.fill(static_cast<float>(u), static_cast<float>(sigma), window.width);
-    along_v.fill(static_cast<float>(v), static_cast<float>(sigma), window.height);
-    n = NormalEquations{};
-    for (int first = 0; first < window.width; first += kLanes) {
-      ColumnSums sums;
-      sum_columns(window, first, along_u, along_v, static_cast<float>(flux), static_cast<float>(background),
-                  variance, per_gain, sums);
-      add_columns(sums, along_u, first, static_cast<float>(flux), n);
-    }
-    aa = n.h[0][0];
-    n.h[3][3] += sigma_information;
-    n.g[3] += sigma_information * (prior.sigma - sigma);
-    n.h[4][4] += background_information;
-    n.g[4] -= background_information * background;
-    if (!factor(n.h, l)) return;
-    if (settled || k == kIterations) break;  // this was the look at the solution
-    solve(l, n.g, step);
-    const double least_flux = 0.2 * flux;
-    flux = std::max(least_flux, flux + step[0]);
-    for (int i = 1; i <= 2; ++i) step[i] = std::clamp(step[i], -sigma, sigma);
-    u += step[1];
-    v += step[2];
-    const double sigma_before = sigma;
-    sigma = std::clamp(sigma + std::clamp(step[3], -0.3 * sigma, 0.4 * sigma), kLeastSigma, kLargestSigma);
-    background += step[4];
-    if (!(u > -1 && u < window.width && v > -1 && v < window.height)) return;
-    // Steps a small part of the error they leave behind: Newton's next one would be far smaller still.
-    settled = std::abs(step[1]) * l[1][1] < 0.05 && std::abs(step[2]) * l[2][2] < 0.05 &&
-              std::abs(sigma - sigma_before) * l[3][3] < 0.1;
+  double flux_before = at.flux;
+  double sigma_before = at.sigma;
+  for (int k = 0; k < kIterations && !settled; ++k) {
+    along_u.fill(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width);
+    along_v.fill(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height);
+    for (std::size_t i = 0; i < used; ++i)
+      groups[i] = sum_columns(window, kLanes * i, along_u, along_v, at, variance, per_gain);
+    n = normal_equations(groups, used, along_u, at.flux);
+    fit.flux_information = n.h[0][0];
+    n.h[1][1] += sigma_information;
+    n.g[1] += sigma_information * (static_cast<double>(prior.sigma) - at.sigma);
+    n.h[2][2] += background_information;
+    n.g[2] -= background_information * at.background;
+    if (!factorise(n.h, factor)) return;
+    solve(factor, n.g, step);
+    flux_before = at.flux;
+    sigma_before = at.sigma;
+    at.flux = std::max(0.2 * at.flux, at.flux + step[0]);
+    at.sigma = std::clamp(at.sigma + std::clamp(step[1], -0.3 * at.sigma, 0.4 * at.sigma), kLeastSigma,
+                          kLargestSigma);
+    at.background += step[2];
+    for (int i = 3; i < 5; ++i) step[i] = std::clamp(step[i], -sigma_before, sigma_before);
+    at.u += step[3];
+    at.v += step[4];
+    if (!(at.u > -1 && at.u < window.width && at.v > -1 && at.v < window.height)) return;
+    settled = std::abs(step[3]) < kLastStep * factor.inverse[3] &&
+              std::abs(step[4]) < kLastStep * factor.inverse[4] &&
+              std::abs(at.sigma - sigma_before) < kLastStep * factor.inverse[1];
   }
-  double column[kUnknowns];
-  for (int i = 0; i < 2; ++i) {
-    double unit[kUnknowns] = {};
-    unit[1 + i] = 1;
-    solve(l, unit, column);
-    fit.covariance(0, i) = column[1];
-    fit.covariance(1, i) = column[2];
-  }
+  fit.covariance = covariance_of_place(factor);
   if (!settled) {  // it still moves by so much
-    fit.covariance(0, 0) += step[1] * step[1];
-    fit.covariance(1, 1) += step[2] * step[2];
+    fit.covariance(0, 0) += step[3] * step[3];
+    fit.covariance(1, 1) += step[4] * step[4];
   }
-  fit.usable = flux > 0;
-  fit.flux = flux;
-  fit.u = u + window.left;
-  fit.v = v + window.top;
-  fit.sigma = sigma;
-  fit.background = background;
-  fit.flux_information = aa;
-  fit.chi2_per_pixel = n.chi2 / std::max(1, window.counted - kUnknowns);
-  fit.skew = n.skew_information > 0 ? n.skew_score / n.skew_information : 0;
-  fit.stretch = n.stretch_information > 0 ? 2 * sigma * n.stretch_score / n.stretch_information : 0;
-  fit.stretch_error = n.skew_information > 0 ? 1 / std::sqrt(n.skew_information) : 0;
+  set_shape(groups, used, along_u, flux_before, sigma_before, fit);
+  double gained = 0;  // by the last step
+  for (int i = 0; i < kUnknowns; ++i) gained += step[i] * n.g[i];
+  fit.chi2_per_pixel = std::max(0.0, n.chi2 - gained) / std::max(1, window.counted - kUnknowns);
+  fit.usable = at.flux > 0;
+  fit.flux = at.flux;
+  fit.u = at.u + window.left;
+  fit.v = at.v + window.top;
+  fit.sigma = at.sigma;
+  fit.background = at.background;
 }
 
 }  // namespace omma

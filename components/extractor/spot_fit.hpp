@@ -14,11 +14,11 @@ namespace omma {
 /// Pixels about a spot: light over the background, and which of them count.
 struct SpotWindow {
   static constexpr int kRows = 25;
-  int left = 0, top = 0;                                    ///< image place of pixel (0, 0)
-  int width = 0, height = 0;                                ///< [px], at most kRows
-  int counted = 0;                                          ///< pixels with weight 1
-  alignas(32) std::array<float, kRows * kSpotSide> light;   ///< rows of kSpotSide [grey levels]
-  alignas(32) std::array<float, kRows * kSpotSide> weight;  ///< 1, or 0: full, outside, padding
+  int left = 0, top = 0;                                     ///< image place of pixel (0, 0)
+  int width = 0, height = 0;                                 ///< [px], at most kRows
+  int counted = 0;                                           ///< pixels with weight 1
+  std::array<float, std::size_t{kRows} * kSpotSide> light;   ///< rows of kSpotSide [grey levels]
+  std::array<float, std::size_t{kRows} * kSpotSide> weight;  ///< 1, or 0: full, outside, padding
 };
 
 /// What is known before the pixels are looked at.
@@ -37,7 +37,7 @@ struct SpotFit {
   double chi2_per_pixel = 0;  ///< about 1 where the pixels are as the model says
   /// Second moments beyond a round spot: C = σ² I + [d c; c −d] [px²]
   double stretch = 0, skew = 0;
-  double stretch_error = 0;  ///< standard deviation of either [px²]
+  double shape_error = 0;  ///< standard deviation of either [px²]
 };
 
 /// @param noise_variance  of a pixel without the spot's own light [grey levels²]

@@ -81,7 +81,7 @@ TEST(Health, SeesAGroupWhoseStepDoesNotReturn) {
   std::atomic<bool> hang{true};
   Scheduler* running = nullptr;
   Scripted stuck("stuck", [&](const Tick& tick) {
-    while (tick.number == 5 && hang.load()) std::this_thread::sleep_for(1ms);
+    while (tick.number >= 5 && hang.load()) std::this_thread::sleep_for(1ms);
   });
   Scripted judge("judge", [&](const Tick& tick) {
     if (health.report->state != HealthState::kFailed && tick.number < 5000) return;

@@ -5,12 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
+
+#include "components/extractor/clones.hpp"
+#include "components/extractor/lanes.hpp"
 
 namespace omma {
 namespace {
 
 constexpr int kCell = BackgroundMap::kCell;
-constexpr int kSampledRows = 8;  // every fourth row of a cell
+constexpr int kSampledRows = 4;  // every eighth row of a cell
 constexpr int kSamples = kSampledRows * kCell;
 // A pixel is rounded to a whole grey level: variance 1/12, the least a pixel can have.
 constexpr float kQuantisationVariance = 1.0F / 12.0F;
@@ -22,56 +26,93 @@ struct CellSamples {
   std::array<std::array<Pixel, kCell>, kSampledRows> value;
 };
 
-/// How many samples are not above `level`. Counters of the pixel's own width let the compiler use whole
-/// vectors.
-template <class Pixel>
-int count_not_above(const CellSamples<Pixel>& samples, Pixel level) {
-  std::array<Pixel, kCell> count{};
-  for (const auto& row : samples.value) {
-    for (int i = 0; i < kCell; ++i) {
-      count[i] = static_cast<Pixel>(count[i] + static_cast<Pixel>(row[i] <= level ? 1 : 0));
-    }
-  }
+/// How many samples are not above `level`.
+OMMA_CLONES int count_not_above(const CellSamples<std::uint8_t>& samples, std::uint8_t level) {
+  // Counters of the pixel's own width fill whole vectors.
+  std::array<std::uint8_t, kCell> count{};
+  for (const auto& row : samples.value)
+    for (int i = 0; i < kCell; ++i)
+      count[i] = static_cast<std::uint8_t>(count[i] + (row[i] <= level ? 1 : 0));
+  int total = 0;
+  for (int i = 0; i < kCell; ++i) total += count[i];
+  return total;
+}
+OMMA_CLONES int count_not_above(const CellSamples<std::uint16_t>& samples, std::uint16_t level) {
+  std::array<std::uint16_t, kCell> count{};
+  for (const auto& row : samples.value)
+    for (int i = 0; i < kCell; ++i)
+      count[i] = static_cast<std::uint16_t>(count[i] + (row[i] <= level ? 1 : 0));
   int total = 0;
   for (int i = 0; i < kCell; ++i) total += count[i];
   return total;
 }
 
 struct CellStatistics {
+  int bin;  // the grey level that holds the median
   float level;
   float noise;
 };
 
-/// Median and one-sided mean deviation of the histogram, each grey level taken as a bin one level wide.
+struct MedianBin {
+  int level;   // smallest with at least half of the samples not above it
+  int below;   // samples
+  int within;  // samples
+};
+
+/// From a guess in growing steps, then by bisection: neighbouring cells are alike.
 template <class Pixel>
-CellStatistics cell_statistics(const CellSamples<Pixel>& samples, int top_level) {
-  // Smallest level with at least half of the samples not above it, by bisection.
+MedianBin median_bin(const CellSamples<Pixel>& samples, int top_level, int guess) {
   int low = 0;
   int high = top_level;
+  int below = 0;
+  int not_above = kSamples;
+  int at = std::min(guess, top_level - 1);
+  int step = 1;
+  int direction = 0;
+  bool bracketed = false;
   while (low < high) {
-    const int middle = (low + high) / 2;
-    if (2 * count_not_above(samples, static_cast<Pixel>(middle)) >= kSamples) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
+    const int count = count_not_above(samples, static_cast<Pixel>(at));
+    const bool enough = 2 * count >= kSamples;
+    (enough ? high : low) = enough ? at : at + 1;
+    (enough ? not_above : below) = count;
+    const int turn = enough ? -1 : 1;
+    bracketed = bracketed || (direction != 0 && turn != direction);
+    direction = turn;
+    at = bracketed ? (low + high) / 2 : std::clamp(at + turn * step, low, std::max(low, high - 1));
+    step *= 2;
   }
-  const int median_bin = low;
-  const int below = median_bin > 0 ? count_not_above(samples, static_cast<Pixel>(median_bin - 1)) : 0;
-  const int within = count_not_above(samples, static_cast<Pixel>(median_bin)) - below;
-  const float part = (0.5F * kSamples - static_cast<float>(below)) / static_cast<float>(within);
-  const float median = static_cast<float>(median_bin) - 0.5F + part;
-  // Σ max(0, m − x): whole bins below the median, and the part of its own bin that lies under it.
+  return {low, below, not_above - below};
+}
+
+/// Σ max(0, level − x) over the samples.
+OMMA_CLONES int sum_below(const CellSamples<std::uint8_t>& samples, int level) {
+  const auto top = static_cast<std::uint8_t>(level);
   int sum = 0;
-  for (const auto& row : samples.value) {
-    for (int i = 0; i < kCell; ++i) sum += row[i] < median_bin ? median_bin - row[i] : 0;
-  }
-  const float deviation = static_cast<float>(sum) + (part - 0.5F) * static_cast<float>(below) +
+  for (const auto& row : samples.value)
+    for (int i = 0; i < kCell; ++i) sum += std::max(row[i], top) == top ? top - row[i] : 0;
+  return sum;
+}
+OMMA_CLONES int sum_below(const CellSamples<std::uint16_t>& samples, int level) {
+  int sum = 0;
+  for (const auto& row : samples.value)
+    for (int i = 0; i < kCell; ++i) sum += std::max(0, level - row[i]);
+  return sum;
+}
+
+/// Median and one-sided mean deviation of the histogram, each grey level taken as a bin one level wide.
+template <class Pixel>
+CellStatistics cell_statistics(const CellSamples<Pixel>& samples, int top_level, int guess) {
+  const auto [bin, below, within] = median_bin(samples, top_level, guess);
+  const float part = (0.5F * kSamples - static_cast<float>(below)) / static_cast<float>(within);
+  const float median = static_cast<float>(bin) - 0.5F + part;
+  // Σ max(0, m − x): whole bins below the median, and the part of its own bin that lies under it.
+  const float deviation = static_cast<float>(sum_below(samples, bin)) +
+                          (part - 0.5F) * static_cast<float>(below) +
                           0.5F * part * part * static_cast<float>(within);
   const float spread = deviation * kRootTwoPi / kSamples;
   // The bins spread each sample once more over its own level: take that 1/12 away again.
   const float variance = std::max(spread * spread - kQuantisationVariance, kQuantisationVariance);
-  return {median, std::sqrt(variance)};
+  return {bin, median, std::sqrt(variance)};
 }
 
 /// Copies the sampled rows of one cell; a cell cut by the image edge is moved inside, and an image smaller
@@ -94,21 +135,35 @@ void gather(const ImageView& image, int left, int top, bool invert, CellSamples<
   }
 }
 
-float median_of_neighbours(const std::vector<float>& map, int columns, int rows, int column, int row) {
-  std::array<float, 9> value;
-  int n = 0;
-  for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
-    for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
-      value[n++] = map[static_cast<std::size_t>(r * columns + c)];
-    }
+// Median of nine, side by side, by the exchanges that matter (Devillard 1998, after Smith).
+Floats median_of_nine(std::array<Floats, 9>& p) {
+  const auto order = [&](std::size_t a, std::size_t b) {
+    const Floats low = p[a] < p[b] ? p[a] : p[b];
+    p[b] = p[a] < p[b] ? p[b] : p[a];
+    p[a] = low;
+  };
+  for (const auto& [a, b] : {std::pair{1, 2},
+                             {4, 5},
+                             {7, 8},
+                             {0, 1},
+                             {3, 4},
+                             {6, 7},
+                             {1, 2},
+                             {4, 5},
+                             {7, 8},
+                             {0, 3},
+                             {5, 8},
+                             {4, 7},
+                             {3, 6},
+                             {1, 4},
+                             {2, 5},
+                             {4, 7},
+                             {4, 2},
+                             {6, 4},
+                             {4, 2}}) {
+    order(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
-  for (int i = 1; i < n; ++i) {
-    const float x = value[i];
-    int j = i;
-    for (; j > 0 && value[j - 1] > x; --j) value[j] = value[j - 1];
-    value[j] = x;
-  }
-  return n % 2 == 1 ? value[n / 2] : 0.5F * (value[n / 2 - 1] + value[n / 2]);
+  return p[4];
 }
 
 }  // namespace
@@ -117,15 +172,18 @@ BackgroundMap::BackgroundMap(int width, int height) {
   const auto cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
                      static_cast<std::size_t>((height + kCell - 1) / kCell);
   for (auto* map : {&raw_level_, &raw_noise_, &level_, &noise_, &order_}) map->resize(cells);
+  rows_above_.resize(3 * (static_cast<std::size_t>((width + kCell - 1) / kCell) + 2 * kLanes));
 }
 
 template <class Pixel>
 void BackgroundMap::measure_cells(const ImageView& image, bool dark_dots) noexcept {
   CellSamples<Pixel> samples;
+  int guess = 16;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       gather(image, column * kCell, row * kCell, dark_dots, samples);
-      const CellStatistics cell = cell_statistics(samples, sizeof(Pixel) == 1 ? 255 : 65535);
+      const CellStatistics cell = cell_statistics(samples, sizeof(Pixel) == 1 ? 255 : 65535, guess);
+      guess = cell.bin;
       const auto i = static_cast<std::size_t>(row * columns_ + column);
       raw_level_[i] = cell.level;
       raw_noise_[i] = cell.noise;
@@ -141,13 +199,8 @@ void BackgroundMap::build(const ImageView& image, bool dark_dots) noexcept {
   } else {
     measure_cells<std::uint16_t>(image, dark_dots);
   }
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      const auto i = static_cast<std::size_t>(row * columns_ + column);
-      level_[i] = median_of_neighbours(raw_level_, columns_, rows_, column, row);
-      noise_[i] = median_of_neighbours(raw_noise_, columns_, rows_, column, row);
-    }
-  }
+  smooth(raw_level_, level_);
+  smooth(raw_noise_, noise_);
   const auto cells = static_cast<std::ptrdiff_t>(columns_) * rows_;
   const auto median = [&](const std::vector<float>& map) {
     std::copy(map.begin(), map.begin() + cells, order_.begin());
@@ -156,6 +209,30 @@ void BackgroundMap::build(const ImageView& image, bool dark_dots) noexcept {
   };
   median_level_ = median(level_);
   median_noise_ = median(noise_);
+}
+
+// Median over 3×3 cells; the outermost are repeated outside.
+void BackgroundMap::smooth(const std::vector<float>& raw, std::vector<float>& out) noexcept {
+  const auto columns = static_cast<std::size_t>(columns_);
+  std::array<float*, 3> padded{};
+  for (std::size_t k = 0; k < 3; ++k) padded[k] = &rows_above_[k * (columns + 2 * kLanes)];
+  for (int row = 0; row < rows_; ++row) {
+    for (int k = -1; k <= 1; ++k) {
+      const float* from = &raw[static_cast<std::size_t>(std::clamp(row + k, 0, rows_ - 1)) * columns];
+      float* to = padded[static_cast<std::size_t>(k + 1)];
+      to[0] = from[0];
+      std::copy_n(from, columns, to + 1);
+      std::fill_n(to + 1 + columns, kLanes + 1, from[columns - 1]);
+    }
+    for (std::size_t column = 0; column < columns; column += kLanes) {
+      std::array<Floats, 9> nine;
+      for (std::size_t k = 0; k < 9; ++k) nine[k] = load(padded[k / 3] + column + k % 3);
+      std::array<float, kLanes> median{};
+      store(median.data(), median_of_nine(nine));
+      std::copy_n(median.begin(), std::min(kLanes, columns - column),
+                  &out[static_cast<std::size_t>(row) * columns + column]);
+    }
+  }
 }
 
 float BackgroundMap::interpolate(const std::vector<float>& map, float u, float v) const noexcept {

@@ -36,12 +36,14 @@ class BackgroundMap {
  private:
   template <class Pixel>
   void measure_cells(const ImageView& image, bool dark_dots) noexcept;
+  void smooth(const std::vector<float>& raw, std::vector<float>& out) noexcept;
   float interpolate(const std::vector<float>& map, float u, float v) const noexcept;
 
   int columns_ = 0;
   int rows_ = 0;
   std::vector<float> raw_level_, raw_noise_;  // as measured, cell by cell
   std::vector<float> level_, noise_;          // after the 3×3 median
+  std::vector<float> rows_above_;             // three rows of cells, padded
   std::vector<float> order_;                  // scratch of the medians over the image
   float median_level_ = 0;
   float median_noise_ = 0;

@@ -12,15 +12,14 @@ void Blob::merge(const Blob& other) {
   right = std::max(right, other.right);
   top = std::min(top, other.top);
   bottom = std::max(bottom, other.bottom);
-  if (other.peak > peak) {
-    peak = other.peak;
-    peak_u = other.peak_u;
-    peak_v = other.peak_v;
-  }
-  shape += other.shape.moved(du, dv);
-  light += other.light.moved(du, dv);
-  saturated += other.saturated.moved(du, dv);
-  light_squared += other.light_squared;
+  area += other.area;
+  saturated += other.saturated;
+  peak = std::max(peak, other.peak);
+  sum_u += other.sum_u + du * other.area;
+  sum_v += other.sum_v + dv * other.area;
+  light += other.light;
+  light_u += other.light_u + du * other.light;
+  light_v += other.light_v + dv * other.light;
 }
 
 BlobFinder::BlobFinder(int width) {

@@ -9,49 +9,30 @@
 
 namespace omma {
 
-/// Sums over the pixels of a blob about its origin pixel, of one weight.
-struct PixelSums {
-  std::int64_t n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
-  void add(std::int64_t weight, std::int64_t du, std::int64_t dv) {
-    n += weight;
-    u += weight * du;
-    v += weight * dv;
-    uu += weight * du * du;
-    uv += weight * du * dv;
-    vv += weight * dv * dv;
-  }
-  void operator+=(const PixelSums& other) {
-    n += other.n;
-    u += other.u;
-    v += other.v;
-    uu += other.uu;
-    uv += other.uv;
-    vv += other.vv;
-  }
-  /// The same sums about an origin moved by (−du, −dv): every pixel's offset grows by (du, dv).
-  PixelSums moved(std::int64_t du, std::int64_t dv) const {
-    return {n,
-            u + du * n,
-            v + dv * n,
-            uu + 2 * du * u + du * du * n,
-            uv + du * v + dv * u + du * dv * n,
-            vv + 2 * dv * v + dv * dv * n};
-  }
-};
-
 /// A connected set of pixels over the detection threshold.
 struct Blob {
   int origin_u = 0, origin_v = 0;                ///< its first pixel in reading order; the sums are about it
   int left = 0, right = 0, top = 0, bottom = 0;  ///< bounding box, inclusive [px]
-  int peak = 0;                                  ///< largest smoothed value
-  int peak_u = 0, peak_v = 0;                    ///< where
-  PixelSums shape;                               ///< weight 1
-  PixelSums light;                               ///< weight: grey level, background included
-  PixelSums saturated;                           ///< weight 1 on pixels at the white level
-  std::int64_t light_squared = 0;                ///< sum of squared grey levels
+  int area = 0;                                  ///< pixels
+  int saturated = 0;                             ///< of them at the white level
+  int peak = 0;                                  ///< largest grey level
+  std::int64_t sum_u = 0, sum_v = 0;             ///< of the pixels' places about the origin
+  std::int64_t light = 0;                        ///< sum of grey levels, background included
+  std::int64_t light_u = 0, light_v = 0;         ///< the same times the place about the origin
 
   int width() const { return right - left + 1; }
   int height() const { return bottom - top + 1; }
+  void add(int grey, int u, int v) {
+    const int du = u - origin_u;
+    const int dv = v - origin_v;
+    ++area;
+    sum_u += du;
+    sum_v += dv;
+    light += grey;
+    light_u += std::int64_t{grey} * du;
+    light_v += std::int64_t{grey} * dv;
+    peak = grey > peak ? grey : peak;
+  }
   void merge(const Blob& other);
 };
 

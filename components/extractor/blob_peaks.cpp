@@ -1,6 +1,7 @@
 #include "components/extractor/blob_peaks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace omma {
@@ -13,23 +14,43 @@ constexpr float kLeastDepth = 0.05F;
 constexpr float kFilterWeights = 16;
 constexpr float kFilterDeviation = 6;  // √(Σ weights²)
 
-template <class Pixel>
-struct Smoothed {
-  const ImageView& image;
-  int flip;  // white level where the dots are dark
-  int operator()(int u, int v) const {
-    const auto row = [&](int y) {
-      const Pixel* x = image.row<Pixel>(y) + u;
-      return x[-1] + 2 * x[0] + x[1];
-    };
-    const int sum = row(v - 1) + 2 * row(v) + row(v + 1);
-    return flip > 0 ? 16 * flip - sum : sum;
+constexpr int kSide = 80;  // most pixels on a side of the smoothed patch
+
+// The smoothed light of a box and a border of one pixel.
+class Patch {
+ public:
+  Patch(int left, int top, int right, int bottom)
+      : left_(left - 1), top_(top - 1), width_(right - left + 3), height_(bottom - top + 3) {}
+
+  template <class Pixel>
+  void smooth(const ImageView& image, int flip) {
+    std::array<std::int32_t, kSide> across[3];
+    for (int y = -1; y <= height_; ++y) {
+      const Pixel* x = image.row<Pixel>(top_ + y) + left_;
+      auto& row = across[(y + 3) % 3];
+      for (int u = 0; u < width_; ++u) row[static_cast<std::size_t>(u)] = x[u - 1] + 2 * x[u] + x[u + 1];
+      if (y < 1) continue;
+      const auto& above = across[(y + 1) % 3];
+      const auto& here = across[(y + 2) % 3];
+      std::int32_t* out = &value_[static_cast<std::size_t>(y - 1) * kSide];
+      for (int u = 0; u < width_; ++u) {
+        const auto i = static_cast<std::size_t>(u);
+        const std::int32_t sum = above[i] + 2 * here[i] + row[i];
+        out[u] = flip > 0 ? 16 * flip - sum : sum;
+      }
+    }
   }
+  int operator()(int u, int v) const {
+    return value_[static_cast<std::size_t>(v - top_) * kSide + static_cast<std::size_t>(u - left_)];
+  }
+
+ private:
+  int left_, top_, width_, height_;
+  std::array<std::int32_t, std::size_t{kSide} * kSide> value_;
 };
 
 // Lowest smoothed light on the straight way between two peaks.
-template <class Pixel>
-int lowest_between(const Smoothed<Pixel>& smoothed, const Peak& a, const Peak& b) {
+int lowest_between(const Patch& smoothed, const Peak& a, const Peak& b) {
   const int steps = std::max(std::abs(a.u - b.u), std::abs(a.v - b.v));
   int lowest = std::min(a.height, b.height);
   for (int k = 1; k < steps; ++k) {
@@ -40,13 +61,22 @@ int lowest_between(const Smoothed<Pixel>& smoothed, const Peak& a, const Peak& b
   return lowest;
 }
 
-template <class Pixel>
-void find(const ImageView& image, bool invert, const Candidate& candidate, Peaks& peaks) {
-  const Smoothed<Pixel> smoothed{image, invert ? image.white_level : 0};
+}  // namespace
+
+void find_peaks(const ImageView& image, bool invert, const Candidate& candidate, Peaks& peaks) noexcept {
+  peaks.clear();
   const int left = std::max(candidate.left, 2);
   const int right = std::min(candidate.right, image.width - 3);
   const int top = std::max(candidate.top, 2);
   const int bottom = std::min(candidate.bottom, image.height - 3);
+  if (right < left || bottom < top || right - left + 3 > kSide || bottom - top + 3 > kSide) return;
+  Patch smoothed(left, top, right, bottom);
+  const int flip = invert ? image.white_level : 0;
+  if (image.format == PixelFormat::kGrey8) {
+    smoothed.smooth<std::uint8_t>(image, flip);
+  } else {
+    smoothed.smooth<std::uint16_t>(image, flip);
+  }
   Peaks maxima;
   const float floor =
       candidate.noise.background * kFilterWeights + kDepth * kFilterDeviation * candidate.noise.sigma;
@@ -76,17 +106,6 @@ void find(const ImageView& image, bool invert, const Candidate& candidate, Peaks
       return static_cast<float>(peak.height - lowest_between(smoothed, peak, higher)) > depth;
     });
     if (parted) peaks.push_back(peak);
-  }
-}
-
-}  // namespace
-
-void find_peaks(const ImageView& image, bool invert, const Candidate& candidate, Peaks& peaks) noexcept {
-  peaks.clear();
-  if (image.format == PixelFormat::kGrey8) {
-    find<std::uint8_t>(image, invert, candidate, peaks);
-  } else {
-    find<std::uint16_t>(image, invert, candidate, peaks);
   }
 }
 

@@ -2,89 +2,251 @@
 #include "components/extractor/detection_filter.hpp"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstring>
+
+#include "components/extractor/clones.hpp"
 
 namespace omma {
 namespace {
 
-constexpr int kBlock = 64;  // pixels to a word of the bit map
+constexpr int kCell = BackgroundMap::kCell;
+constexpr int kStrip = 16;  // pixels looked at together; the threshold is linear along them
+constexpr int kStripsOfWord = DetectionFilter::kWord / kStrip;
+constexpr float kFinest = 8;  // noise in the quick pass's units, if the image's range allows
+constexpr float kFullRange = 250;
 
-void smooth_row_8(const std::uint8_t* x, int width, std::uint8_t flip, std::uint16_t* out) {
-  for (int u = 1; u < width - 1; ++u) {
-    const auto left = static_cast<std::uint16_t>(x[u - 1] ^ flip);
-    const auto here = static_cast<std::uint16_t>(x[u] ^ flip);
-    const auto right = static_cast<std::uint16_t>(x[u + 1] ^ flip);
-    out[u] = static_cast<std::uint16_t>(left + 2 * here + right);
+// The cell whose centre is left of a strip, or at its left end.
+constexpr int left_cell(int strip) {
+  return (strip + 1) / 2 - 1;
+}
+
+// Averages of bytes that round up, as vector units have them.
+inline std::uint8_t average(std::uint8_t a, std::uint8_t b) {
+  return static_cast<std::uint8_t>((a + b + 1) >> 1);
+}
+
+// Full, at least 252, where it does not fit.
+OMMA_CLONES void narrow_8(const std::uint8_t* x, int n, std::uint8_t flip, std::uint8_t pedestal,
+                          int exponent, std::uint8_t* out) {
+  const auto most = static_cast<std::uint8_t>(255 >> exponent);
+  for (int u = 0; u < n; ++u) {
+    const auto turned = static_cast<std::uint8_t>(x[u] ^ flip);
+    const auto over = static_cast<std::uint8_t>(std::max(turned, pedestal) - pedestal);
+    out[u] = std::min(over, most);
+  }
+  for (int k = 0; k < exponent; ++k)
+    for (int u = 0; u < n; ++u) out[u] = static_cast<std::uint8_t>(out[u] + out[u]);
+}
+
+OMMA_CLONES void narrow_16(const std::uint16_t* x, int n, std::uint16_t white, bool invert,
+                           std::uint16_t pedestal, int exponent, std::uint8_t* out) {
+  for (int u = 0; u < n; ++u) {
+    const std::uint16_t turned = invert ? static_cast<std::uint16_t>(white - std::min(x[u], white)) : x[u];
+    const int over = std::max(turned, pedestal) - pedestal;
+    const int scaled = exponent >= 0 ? over << exponent : (over + (1 << -exponent) - 1) >> -exponent;
+    out[u] = static_cast<std::uint8_t>(std::min(scaled, 255));
   }
 }
 
-void smooth_row_16(const std::uint16_t* x, int width, const PixelScale& scale, std::uint16_t* out) {
-  const auto scaled = [&](std::uint16_t value) {
-    int level = scale.invert ? std::max(0, scale.white_level - value) : value;
-    level = std::max(0, level - scale.pedestal) >> scale.shift;
-    return std::min(level, 4095);
-  };
-  for (int u = 1; u < width - 1; ++u) {
-    out[u] = static_cast<std::uint16_t>(scaled(x[u - 1]) + 2 * scaled(x[u]) + scaled(x[u + 1]));
+OMMA_CLONES void average_across(const std::uint8_t* x, int n, std::uint8_t* out) {
+  for (int u = 1; u < n - 1; ++u) out[u] = average(average(x[u - 1], x[u + 1]), x[u]);
+}
+
+OMMA_CLONES void average_down(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
+                              int n, std::uint8_t* out) {
+  for (int u = 0; u < n; ++u) out[u] = average(average(above[u], below[u]), here[u]);
+}
+
+// Sets over[k] where some byte of word k is over its limit.
+OMMA_CLONES void find_over(const std::uint8_t* x, const std::uint8_t* limit, int words, std::uint8_t* over) {
+  for (int k = 0; k < words; ++k) {
+    std::uint8_t most = 0;
+    for (int i = 0; i < DetectionFilter::kWord; ++i) most = std::max(most, x[k * DetectionFilter::kWord + i]);
+    over[k] = most > limit[k] ? 1 : 0;
   }
 }
 
-/// Packs 64 bytes, each 0 or 255, into 64 bits, first byte lowest.
-std::uint64_t pack_bits(const std::array<std::uint8_t, kBlock>& bytes) {
-  std::uint64_t word = 0;
-  for (int k = 0; k < kBlock / 8; ++k) {
-    std::uint64_t eight = 0;
-    for (int i = 0; i < 8; ++i) {
-      eight |= static_cast<std::uint64_t>(bytes[static_cast<std::size_t>(8 * k + i)] & 1U) << i;
-    }
-    word |= eight << (8 * k);
+bool strip_over(const std::uint8_t* x, std::uint8_t limit) {
+  std::uint8_t over = 0;
+  for (int i = 0; i < kStrip; ++i) over = static_cast<std::uint8_t>(over | (x[i] > limit ? 1 : 0));
+  return over != 0;
+}
+
+// Bit i: the smoothed value of pixel i of a strip (made brighter by turning it about `turn`, where that is
+// not 0) is over the straight line start + slope · i. The pointers are to the left neighbours of the first.
+template <class Pixel>
+[[gnu::always_inline]] inline std::uint64_t strip_bits(const Pixel* above, const Pixel* here,
+                                                       const Pixel* below, int turn, float start,
+                                                       float slope) {
+  std::array<std::int32_t, kStrip + 2> down;
+  for (std::size_t i = 0; i < down.size(); ++i) down[i] = above[i] + 2 * here[i] + below[i];
+  std::array<std::uint8_t, kStrip> over;
+  for (std::size_t i = 0; i < kStrip; ++i) {
+    const std::int32_t sum = down[i] + 2 * down[i + 1] + down[i + 2];
+    const auto value = static_cast<float>(turn > 0 ? turn - sum : sum);
+    over[i] = value > start + slope * static_cast<float>(static_cast<std::int32_t>(i)) ? 1 : 0;
   }
-  return word;
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < kStrip; ++i) bits |= static_cast<std::uint64_t>(over[i]) << i;
+  return bits;
+}
+OMMA_CLONES std::uint64_t bits_of(const std::uint8_t* above, const std::uint8_t* here,
+                                  const std::uint8_t* below, int turn, float start, float slope) {
+  return strip_bits(above, here, below, turn, start, slope);
+}
+OMMA_CLONES std::uint64_t bits_of(const std::uint16_t* above, const std::uint16_t* here,
+                                  const std::uint16_t* below, int turn, float start, float slope) {
+  return strip_bits(above, here, below, turn, start, slope);
 }
 
 }  // namespace
 
-void smooth_row(const ImageView& image, int v, const PixelScale& scale, std::uint16_t* out) noexcept {
-  if (image.format == PixelFormat::kGrey8) {
-    smooth_row_8(image.row<std::uint8_t>(v), image.width, scale.invert ? 0xFF : 0, out);
-  } else {
-    smooth_row_16(image.row<std::uint16_t>(v), image.width, scale, out);
-  }
+DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_(height) {
+  const std::size_t count = static_cast<std::size_t>(width + kWord - 1) / kWord;
+  row_length_ = (count + 1) * kWord;
+  words_.resize(count);
+  limit_.resize(count * kStripsOfWord);
+  word_limit_.resize(count);
+  over_.resize(count);
+  narrow_.resize(row_length_);
+  averaged_.resize(row_length_);
+  for (auto& row : across_) row.resize(row_length_);
+  const std::size_t cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
+                            static_cast<std::size_t>((height + kCell - 1) / kCell);
+  threshold_.resize(cells);
 }
 
-bool threshold_row(const std::uint16_t* above, const std::uint16_t* here, const std::uint16_t* below,
-                   const std::int16_t* top, const std::int16_t* bottom, int phase, int width,
-                   std::uint64_t* words) noexcept {
+float DetectionFilter::threshold_of(int row, int column) const noexcept {
+  const auto r = static_cast<std::size_t>(std::clamp(row, 0, rows_ - 1));
+  const auto c = static_cast<std::size_t>(std::clamp(column, 0, columns_ - 1));
+  return threshold_[r * static_cast<std::size_t>(columns_) + c];
+}
+
+void DetectionFilter::start(const ImageView& image, bool invert, const BackgroundMap& background,
+                            float threshold) noexcept {
+  image_ = &image;
+  invert_ = invert;
+  columns_ = background.columns();
+  rows_ = background.rows();
+  std::size_t i = 0;
+  for (int row = 0; row < rows_; ++row) {
+    const float* level = background.level_row(row);
+    const float* noise = background.noise_row(row);
+    for (int column = 0; column < columns_; ++column)
+      threshold_[i++] = kFilterSum * level[column] + threshold * kFilterDeviation * noise[column];
+  }
+  choose_scale(background);
+  band_ = -2;
+  average_row(0, across_[0].data());
+  average_row(1, across_[1].data());
+}
+
+// The finest steps with which the thresholds of the whole image still fit into 8 bits.
+void DetectionFilter::choose_scale(const BackgroundMap& background) noexcept {
+  float lowest = background.level_row(0)[0];
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column)
+      lowest = std::min(lowest, background.level_row(row)[column]);
+  const float noise = background.median_noise();
+  pedestal_ = std::max(0, static_cast<int>(lowest - 4 * noise));
+  const auto cells = static_cast<std::ptrdiff_t>(columns_) * rows_;
+  const float highest = *std::max_element(threshold_.begin(), threshold_.begin() + cells) / kFilterSum;
+  exponent_ = 2;
+  const auto unit = [&] { return std::ldexp(1.0F, exponent_); };
+  while (exponent_ > -8 && noise * unit() > kFinest) --exponent_;
+  const int least = image_->format == PixelFormat::kGrey8 ? 0 : -8;
+  while (exponent_ > least && (highest - static_cast<float>(pedestal_)) * unit() > kFullRange) --exponent_;
+  exponent_ = std::max(exponent_, least);
+}
+
+void DetectionFilter::average_row(int v, std::uint8_t* out) noexcept {
+  if (image_->format == PixelFormat::kGrey8) {
+    narrow_8(image_->row<std::uint8_t>(v), width_, invert_ ? 0xFF : 0, static_cast<std::uint8_t>(pedestal_),
+             exponent_, narrow_.data());
+  } else {
+    narrow_16(image_->row<std::uint16_t>(v), width_, image_->white_level, invert_,
+              static_cast<std::uint16_t>(pedestal_), exponent_, narrow_.data());
+  }
+  average_across(narrow_.data(), width_, out);
+}
+
+bool DetectionFilter::row(int v) noexcept {
+  average_row(v + 1, across_[static_cast<std::size_t>((v + 1) % 3)].data());
+  const int offset = v - kCell / 2;
+  const int band = offset < 0 ? -1 : offset / kCell;
+  const int count = words();
+  const int strips = count * kStripsOfWord;
+  const bool band_changed = band != band_;
+  if (band_changed) {  // the lowest threshold that plays a part in a strip of this band
+    band_ = band;
+    for (int k = 0; k < strips; ++k) {
+      const int column = left_cell(k);
+      const float lowest = std::min({threshold_of(band, column), threshold_of(band, column + 1),
+                                     threshold_of(band + 1, column), threshold_of(band + 1, column + 1)});
+      const float scaled = std::ldexp(lowest / kFilterSum - static_cast<float>(pedestal_), exponent_);
+      limit_[static_cast<std::size_t>(k)] =
+          static_cast<std::uint8_t>(std::clamp(std::floor(scaled), 0.0F, kFullRange));
+    }
+  }
+  for (int k = 0; band_changed && k < count; ++k) {
+    const auto first = limit_.begin() + std::ptrdiff_t{k} * kStripsOfWord;
+    word_limit_[static_cast<std::size_t>(k)] = *std::min_element(first, first + kStripsOfWord);
+  }
+  average_down(across_[static_cast<std::size_t>((v - 1) % 3)].data(),
+               across_[static_cast<std::size_t>(v % 3)].data(),
+               across_[static_cast<std::size_t>((v + 1) % 3)].data(), width_, averaged_.data());
+  find_over(averaged_.data(), word_limit_.data(), count, over_.data());
   bool any = false;
-  const auto fraction = static_cast<std::int16_t>(phase * 1024);  // of 2^15
-  for (int left = 0; left < width; left += kBlock) {
-    std::array<std::int16_t, kBlock> over;
-    std::uint16_t seen = 0;
-    for (int i = 0; i < kBlock; ++i) {
-      const int u = left + i;
-      const auto value =
-          static_cast<std::int16_t>(static_cast<std::uint16_t>(above[u] + 2 * here[u] + below[u]) >> 1);
-      const auto slope = static_cast<std::int16_t>(bottom[u] - top[u]);
-      const auto limit =
-          static_cast<std::int16_t>(top[u] + 2 * static_cast<std::int16_t>((slope * fraction) >> 16));
-      over[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(value > limit ? -1 : 0);
-      seen = static_cast<std::uint16_t>(seen | static_cast<std::uint16_t>(over[static_cast<std::size_t>(i)]));
+  for (int k = 0; k < count; ++k) {
+    std::uint64_t& word = words_[static_cast<std::size_t>(k)];
+    word = 0;
+    if (over_[static_cast<std::size_t>(k)] == 0) continue;
+    for (int i = 0; i < kStripsOfWord; ++i) {
+      const int strip = k * kStripsOfWord + i;
+      if (strip_over(&averaged_[static_cast<std::size_t>(strip * kStrip)],
+                     limit_[static_cast<std::size_t>(strip)]))
+        word |= exact(v, strip) << (i * kStrip);
     }
-    std::uint64_t word = 0;
-    if (seen != 0) {
-      std::array<std::uint8_t, kBlock> bytes;
-      for (int i = 0; i < kBlock; ++i)
-        bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(over[static_cast<std::size_t>(i)]);
-      word = pack_bits(bytes);
-    }
-    if (left == 0) word &= ~1ULL;
-    const int last = width - 1 - left;  // the last column has no right neighbour
-    if (last < kBlock) word &= (1ULL << last) - 1;
-    words[left / kBlock] = word;
     any = any || word != 0;
   }
   return any;
+}
+
+// The threshold is bilinear between the cells' centres, which lie between two strips.
+std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
+  static_assert(kCell == 2 * kStrip);
+  const float y = (static_cast<float>(v) + 0.5F) / kCell - 0.5F;
+  const int row = static_cast<int>(std::floor(y));
+  const float down = y - static_cast<float>(row);
+  const int column = left_cell(strip);
+  const auto middle = [&](int c) {
+    const float top = threshold_of(row, c);
+    return top + down * (threshold_of(row + 1, c) - top);
+  };
+  const float slope = (middle(column + 1) - middle(column)) / kCell;
+  const float start = middle(column) + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
+  const int turn = invert_ ? kFilterSum * image_->white_level : 0;
+  const int first = strip * kStrip;
+  const auto bits = [&]<class Pixel>(Pixel /*type*/) -> std::uint64_t {
+    const Pixel* rows[3] = {image_->row<Pixel>(v - 1), image_->row<Pixel>(v), image_->row<Pixel>(v + 1)};
+    if (first > 0 && first + kStrip < width_)
+      return bits_of(rows[0] + first - 1, rows[1] + first - 1, rows[2] + first - 1, turn, start, slope);
+    // At the border of the image: the first column has no left neighbour, the last no right one.
+    std::array<std::array<Pixel, kStrip + 2>, 3> copy{};
+    const int begin = std::max(first - 1, 0);
+    const int end = std::min(first + kStrip + 1, width_);
+    for (std::size_t r = 0; r < 3; ++r)
+      std::copy(rows[r] + begin, rows[r] + end, copy[r].begin() + (begin - (first - 1)));
+    const std::uint64_t all = bits_of(copy[0].data(), copy[1].data(), copy[2].data(), turn, start, slope);
+    const std::uint64_t left = first == 0 ? ~std::uint64_t{1} : ~std::uint64_t{0};
+    const int inside = width_ - 1 - first;
+    return all & left &
+           (inside >= kStrip ? ~std::uint64_t{0}
+            : inside <= 0    ? 0
+                             : (std::uint64_t{1} << inside) - 1);
+  };
+  return image_->format == PixelFormat::kGrey8 ? bits(std::uint8_t{}) : bits(std::uint16_t{});
 }
 
 }  // namespace omma

@@ -46,7 +46,8 @@ DiscCentroid disc_centroid(const ImageView& image, bool invert, const Candidate&
   disc.flux = static_cast<float>(flux);
   disc.snr = static_cast<float>(flux / std::sqrt(flux_variance));
   const double mean = 0.5 * light_moment.trace() / flux;
-  const double half = std::hypot(0.5 * (light_moment(0, 0) - light_moment(1, 1)), light_moment(0, 1)) / flux;
+  const double half =
+      Eigen::Vector2d(0.5 * (light_moment(0, 0) - light_moment(1, 1)), light_moment(0, 1)).norm() / flux;
   disc.sigma_major = static_cast<float>(std::sqrt(std::max(0.0, mean + half)));
   disc.sigma_minor = static_cast<float>(std::sqrt(std::max(0.0, mean - half)));
   return disc;

@@ -27,9 +27,7 @@ class DotExtractor {
 
  private:
   void search(const ImageView& image, const ExtractorParameters& parameters, bool invert) noexcept;
-  PixelScale pixel_scale(const ImageView& image, bool invert) const noexcept;
-  void prepare_thresholds(const PixelScale& scale, float threshold) noexcept;
-  void add_runs(const ImageView& image, const PixelScale& scale, int v) noexcept;
+  void add_runs(const ImageView& image, bool invert, int v) noexcept;
   void add_pixels(const ImageView& image, bool invert, int first, int last, int v, Blob& blob) noexcept;
   void add_candidates(const ImageView& image, bool invert, const Blob& blob,
                       const ExtractorParameters& parameters) noexcept;
@@ -40,15 +38,13 @@ class DotExtractor {
   int width_;
   int height_;
   BackgroundMap background_;
+  DetectionFilter filter_;
   BlobFinder blobs_;
-  std::vector<std::uint16_t> smoothed_[3];  // rows v−1, v, v+1, in turn
-  std::vector<std::int16_t> threshold_;     // one row of the image per row of cells
-  std::vector<std::uint64_t> bits_;
-  std::size_t row_length_ = 0;  // width rounded up to whole words, and one word
   Peaks peaks_;
   std::vector<Candidate> candidates_;
   DotMeasurement measurement_;
   std::vector<Dot> found_;
+  std::vector<std::uint16_t> order_;
   std::uint32_t overflow_ = 0;  // candidates beyond the scratch
 };
 

@@ -24,6 +24,18 @@ int radius_for(double sigma) {
   return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
 }
 
+// ln x to a twentieth, the same on every machine.
+double logarithm(double x) {
+  int exponent = 0;
+  const double mantissa = std::frexp(x, &exponent);  // 1/2 <= mantissa < 1
+  return M_LN2 * (exponent + 2 * mantissa - 2);
+}
+
+// Square root of the sum of squares; std::hypot is not the same on every machine.
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+
 // Standard deviation of a blob's pixels, were it an even disc [px].
 double disc_sigma(const Candidate& candidate) {
   return 0.5 * std::sqrt(candidate.area / M_PI);
@@ -76,9 +88,16 @@ void DotMeasurement::start_at(const Candidate& candidate) noexcept {
   fit_.u = candidate.u;
   fit_.v = candidate.v;
   // Area of a Gaussian over its threshold: 2 π σ² ln(height / threshold).
-  const double over = std::log(std::max(1.6, candidate.height / (1.9 * candidate.noise.sigma)));
-  const double wide = std::sqrt(candidate.area / (2 * M_PI * over));
-  fit_.sigma = std::clamp(wide, width_known_ ? static_cast<double>(prior_.sigma) : 0.6, 4.0);
+  const double wide =
+      std::sqrt(candidate.area /
+                (2 * M_PI * logarithm(std::max(1.6F, candidate.height / (1.9F * candidate.noise.sigma)))));
+  // A blob about as wide as the point spread is one.
+  if (!width_known_) {
+    fit_.sigma = std::clamp(wide, 0.6, 4.0);
+  } else {
+    fit_.sigma = wide < 1.5 * static_cast<double>(prior_.sigma) ? static_cast<double>(prior_.sigma)
+                                                                : std::min(wide, 4.0);
+  }
   // The smoothed spot is a Gaussian of σ² + 1/12 + 1/2.
   fit_.flux = 2 * M_PI * (fit_.sigma * fit_.sigma + 0.58) * candidate.height;
 }
@@ -88,6 +107,15 @@ void DotMeasurement::start_at(const FieldSpot& spot) noexcept {
   fit_.v = spot.v;
   fit_.sigma = spot.sigma;
   fit_.flux = spot.flux;
+}
+
+FieldSpot DotMeasurement::fitted() const noexcept {
+  FieldSpot spot;
+  spot.u = static_cast<float>(fit_.u);
+  spot.v = static_cast<float>(fit_.v);
+  spot.sigma = static_cast<float>(fit_.sigma);
+  spot.flux = static_cast<float>(fit_.flux);
+  return spot;
 }
 
 // Fits from where fit_ stands, in a window that follows place and width.
@@ -108,7 +136,7 @@ bool DotMeasurement::fit_point(const Candidate& candidate, std::size_t self) noe
     if (centred && wanted <= radius + (radius > 5 ? 1 : 0)) break;
     radius = wanted;
   }
-  return std::hypot(fit_.u - candidate.u, fit_.v - candidate.v) < 2 + fit_.sigma;
+  return length(fit_.u - candidate.u, fit_.v - candidate.v) < 2 + fit_.sigma;
 }
 
 // A single lit pixel: its four neighbours together have less light than the narrowest spot would leave them,
@@ -121,13 +149,8 @@ bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
     return static_cast<double>(window_.light[static_cast<std::size_t>(row * kSpotSide + column)]);
   };
   const double around = at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
-  const double narrowest =
-      width_known_ ? std::max(parameters_->min_sigma, kNarrowest * prior_.sigma) : parameters_->min_sigma;
-  const double half = 0.5 / (M_SQRT2 * narrowest);
-  const double here = std::erf(half);
-  const double beside = 0.5 * (std::erf(3 * half) - here);
   constexpr double kSure = 3;
-  return around + kSure * 2 * candidate.noise.sigma < 4 * at(y, x) * beside / here;
+  return around + kSure * 2 * candidate.noise.sigma < 4 * at(y, x) * least_beside_;
 }
 
 bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept {
@@ -143,7 +166,7 @@ bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self,
   dot.covariance =
       misfit * threshold * fit_.covariance + kModelError * kModelError * Eigen::Matrix2d::Identity();
   dot.flux = static_cast<float>(fit_.flux);
-  const double stretch = std::hypot(fit_.stretch, fit_.skew);
+  const double stretch = length(fit_.stretch, fit_.skew);
   const double sigma2 = fit_.sigma * fit_.sigma;
   dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
   dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
@@ -185,6 +208,7 @@ void DotMeasurement::finish(const Candidate& candidate, Dot& dot) const noexcept
 void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexcept {
   widths_.clear();
   width_known_ = false;
+  set_narrowest(parameters_->min_sigma);
   prior_.sigma = 1.0F;
   prior_.sigma_error = 0.7F;
   std::size_t tried = 0;
@@ -210,6 +234,13 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   prior_.sigma = sigma;
   prior_.sigma_error = std::max(0.1F * sigma, 2 * median());
   width_known_ = true;
+  set_narrowest(std::max(parameters_->min_sigma, kNarrowest * sigma));
+}
+
+void DotMeasurement::set_narrowest(float sigma) noexcept {
+  SpotProfile profile;
+  profile.fill(1, sigma, 3);
+  least_beside_ = static_cast<double>(profile.share[2]) / static_cast<double>(profile.share[1]);
 }
 
 // Spots in each other's light once more, now that all are known.
@@ -218,21 +249,15 @@ void DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
   for (std::size_t i = 0; i < field_.size(); ++i) {
     if (dot_of_spot_[i] < 0) continue;
     start_at(field_[i]);
-    background_ = candidates[i].noise.background;
-    load(fit_.u, fit_.v, radius_for(fit_.sigma));
-    if (!field_.take_away(i, candidates[i].noise.sigma, window_)) continue;
+    if (field_.is_alone(i, radius_for(fit_.sigma))) continue;
     Dot dot;
     if (measure_point(candidates[i], i, dot) &&
         !field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) {
       finish(candidates[i], dot);
-      FieldSpot& spot = field_[i];
-      spot.u = static_cast<float>(fit_.u);
-      spot.v = static_cast<float>(fit_.v);
-      spot.sigma = static_cast<float>(fit_.sigma);
-      spot.flux = static_cast<float>(fit_.flux);
+      field_.set(i, fitted());
       dots[static_cast<std::size_t>(dot_of_spot_[i])] = dot;
     } else {
-      field_[i].flux = 0;
+      field_.set(i, {});
       dots[static_cast<std::size_t>(dot_of_spot_[i])].snr = 0;
       dot_of_spot_[i] = -1;
     }
@@ -267,16 +292,12 @@ void DotMeasurement::measure(const ImageView& image, bool invert, const Extracto
     const Candidate& candidate = candidates[i];
     Dot dot;
     start_at(candidate);
-    FieldSpot& spot = field_[i];
-    if (spot.flux > 0) start_at(spot);
+    if (field_[i].flux > 0) start_at(field_[i]);
     const bool point = disc_sigma(candidate) < parameters.max_point_sigma && measure_point(candidate, i, dot);
-    spot.flux = 0;
+    field_.set(i, {});
     if (point) {
       if (field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) continue;
-      spot.u = static_cast<float>(fit_.u);
-      spot.v = static_cast<float>(fit_.v);
-      spot.sigma = static_cast<float>(fit_.sigma);
-      spot.flux = static_cast<float>(fit_.flux);
+      field_.set(i, fitted());
       dot_of_spot_[i] = static_cast<int>(dots.size());
     } else if (!measure_disc(candidate, dot)) {
       continue;

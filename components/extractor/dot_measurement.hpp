@@ -33,8 +33,10 @@ class DotMeasurement {
   bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
   void start_at(const Candidate& candidate) noexcept;
   void start_at(const FieldSpot& spot) noexcept;
+  FieldSpot fitted() const noexcept;
   bool fit_point(const Candidate& candidate, std::size_t self) noexcept;
   void load(double u, double v, int radius) noexcept;
+  void set_narrowest(float sigma) noexcept;
   bool is_hot_pixel(const Candidate& candidate) const noexcept;
   void remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
   void finish(const Candidate& candidate, Dot& dot) const noexcept;
@@ -48,7 +50,8 @@ class DotMeasurement {
   bool crowded_ = false;  // light of a neighbour was in the window
   SpotPrior prior_;
   bool width_known_ = false;
-  SpotField field_;               // one spot a candidate
+  double least_beside_ = 0;  // light of a neighbour over that of the brightest pixel, of the narrowest spot
+  SpotField field_;          // one spot a candidate
   std::vector<int> dot_of_spot_;  // −1: none
   std::vector<float> widths_;
 };

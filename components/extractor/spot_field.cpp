@@ -7,6 +7,7 @@ namespace omma {
 namespace {
 
 constexpr float kNeighbourError = 0.1F;  // a neighbour's light is known to this share of it
+constexpr float kMargin = 7;             // a spot may have moved from the cell it was put into [px]
 constexpr float kNoLight = 0.1F;         // [standard deviations of a pixel]
 
 float reach(const FieldSpot& spot) {
@@ -25,6 +26,7 @@ SpotField::SpotField(int width, int height, std::size_t spots)
 void SpotField::clear() noexcept {
   std::fill(first_.begin(), first_.end(), -1);
   spots_.clear();
+  largest_reach_ = 0;
 }
 
 std::size_t SpotField::add(const FieldSpot& spot) noexcept {
@@ -34,15 +36,15 @@ std::size_t SpotField::add(const FieldSpot& spot) noexcept {
   spots_.push_back(spot);
   spots_.back().next = head;
   head = static_cast<int>(spots_.size()) - 1;
+  if (spot.flux > 0) largest_reach_ = std::max(largest_reach_, reach(spot));
   return spots_.size() - 1;
 }
 
 template <class Visit>
-void SpotField::for_near(float u, float v, Visit&& visit) const noexcept {
-  const int column = static_cast<int>(u) / kCell;
-  const int row = static_cast<int>(v) / kCell;
-  for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
-    for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
+void SpotField::for_near(float u, float v, float distance, Visit&& visit) const noexcept {
+  const auto cell = [](float x) { return static_cast<int>(std::max(0.0F, x)) / kCell; };
+  for (int r = cell(v - distance); r <= std::min(rows_ - 1, cell(v + distance)); ++r) {
+    for (int c = cell(u - distance); c <= std::min(columns_ - 1, cell(u + distance)); ++c) {
       for (int i = first_[static_cast<std::size_t>(r * columns_ + c)]; i >= 0;
            i = spots_[static_cast<std::size_t>(i)].next) {
         const FieldSpot& spot = spots_[static_cast<std::size_t>(i)];
@@ -52,6 +54,24 @@ void SpotField::for_near(float u, float v, Visit&& visit) const noexcept {
   }
 }
 
+void SpotField::set(std::size_t i, const FieldSpot& spot) noexcept {
+  const int next = spots_[i].next;
+  spots_[i] = spot;
+  spots_[i].next = next;
+  if (spot.flux > 0) largest_reach_ = std::max(largest_reach_, reach(spot));
+}
+
+bool SpotField::is_alone(std::size_t self, int radius) const noexcept {
+  const FieldSpot& at = spots_[self];
+  const float half = static_cast<float>(radius) + 1;
+  bool alone = true;
+  for_near(at.u, at.v, half + kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
+    const float far = half + reach(spot);
+    alone = alone && (i == self || std::fabs(spot.u - at.u) > far || std::fabs(spot.v - at.v) > far);
+  });
+  return alone;
+}
+
 bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) const noexcept {
   const float half = 0.5F * static_cast<float>(window.width);
   const float middle_u = static_cast<float>(window.left) + half - 0.5F;
@@ -59,7 +79,7 @@ bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) con
   const float least = kNoLight * noise;
   const float per_variance = kNeighbourError * kNeighbourError / (noise * noise);
   bool any = false;
-  for_near(middle_u, middle_v, [&](std::size_t i, const FieldSpot& spot) {
+  for_near(middle_u, middle_v, half + kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
     const float far = half + reach(spot);
     if (i == self || std::fabs(spot.u - middle_u) > far || std::fabs(spot.v - middle_v) > far) return;
     SpotProfile along_u, along_v;
@@ -83,9 +103,11 @@ bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) con
 
 bool SpotField::has_twin(std::size_t self, float u, float v) const noexcept {
   bool found = false;
-  for_near(u, v, [&](std::size_t i, const FieldSpot& spot) {
-    const float distance = std::hypot(spot.u - u, spot.v - v);
-    found = found || (i != self && distance < std::max(1.0F, 1.2F * spot.sigma));
+  for_near(u, v, kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
+    const float du = spot.u - u;
+    const float dv = spot.v - v;
+    const float twin = std::max(1.0F, 1.2F * spot.sigma);
+    found = found || (i != self && du * du + dv * dv < twin * twin);
   });
   return found;
 }

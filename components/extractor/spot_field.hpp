@@ -26,7 +26,8 @@ class SpotField {
   void clear() noexcept;
   /// @return its number; there must be room
   std::size_t add(const FieldSpot& spot) noexcept;
-  FieldSpot& operator[](std::size_t i) noexcept { return spots_[i]; }
+  void set(std::size_t i, const FieldSpot& spot) noexcept;
+  const FieldSpot& operator[](std::size_t i) const noexcept { return spots_[i]; }
   std::size_t size() const noexcept { return spots_.size(); }
 
   /// Takes the light of all spots but number `self` out of the window, and trusts the pixels less where it
@@ -34,16 +35,19 @@ class SpotField {
   /// @param noise  standard deviation of a pixel [grey levels]
   /// @return whether there was any to speak of
   bool take_away(std::size_t self, float noise, SpotWindow& window) const noexcept;
+  /// Whether no other spot's light reaches within `radius` of spot number `self`.
+  bool is_alone(std::size_t self, int radius) const noexcept;
   /// Whether another spot than number `self` is so near that the two cannot be told apart.
   bool has_twin(std::size_t self, float u, float v) const noexcept;
 
  private:
   template <class Visit>
-  void for_near(float u, float v, Visit&& visit) const noexcept;
+  void for_near(float u, float v, float distance, Visit&& visit) const noexcept;
 
   int columns_, rows_;
   std::vector<int> first_;  // of each cell
   std::vector<FieldSpot> spots_;
+  float largest_reach_ = 0;  // of any spot's light [px]
 };
 
 }  // namespace omma

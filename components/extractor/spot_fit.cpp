@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "components/extractor/float4.hpp"
+#include "components/extractor/clones.hpp"
+#include "components/extractor/lanes.hpp"
 
 namespace omma {
 namespace {
 
-constexpr std::size_t kLanes = 4;
 constexpr std::size_t kGroups = kSpotSide / kLanes;
 constexpr int kIterations = 10;
 // Unknowns: flux, sigma, background, u, v, in this order, so that the last block of the Cholesky factor is
@@ -16,15 +16,16 @@ constexpr int kIterations = 10;
 constexpr int kUnknowns = 5;
 constexpr double kLeastSigma = 0.2;    // [px]
 constexpr double kLargestSigma = 5.0;  // [px]
-// A step this small against the place's own error is the last: the next would be its square.
-constexpr double kLastStep = 0.12;
+// A step this small against the place's own error is the last: the next would be smaller by the
+// signal-to-noise ratio and more.
+constexpr double kLastStep = 0.4;
 
 // Sums over the rows, column by column: of the weight times products of the row's factors E, D = ∂E/∂v,
 // S = ∂E/∂σ, and of the weighted residual times the factors. The model is a product of a row's factor and a
 // column's, so everything the normal equations need follows from these.
 struct ColumnSums {
-  Float4 ee{}, ed{}, es{}, dd{}, ds{}, ss{}, e{}, d{}, s{}, one{};
-  Float4 re{}, rd{}, rs{}, r{}, rr{};
+  Floats ee, ed, es, dd, ds, ss, e, d, s, one;
+  Floats re, rd, rs, r, rr;
 };
 
 struct NormalEquations {
@@ -37,22 +38,24 @@ struct State {
   double flux, sigma, background, u, v;
 };
 
-ColumnSums sum_columns(const SpotWindow& window, std::size_t first, const SpotProfile& along_u,
-                       const SpotProfile& along_v, const State& at, float variance, float per_gain) {
-  ColumnSums sums;
-  const Float4 across = static_cast<float>(at.flux) * load4(&along_u.share[first]);
+[[gnu::always_inline]] inline void sum_columns(const SpotWindow& window, std::size_t first,
+                                               const SpotProfile& along_u, const SpotProfile& along_v,
+                                               const State& at, float variance, float per_gain,
+                                               ColumnSums& result) {
+  ColumnSums sums{};
+  const Floats across = static_cast<float>(at.flux) * load(&along_u.share[first]);
   const auto background = static_cast<float>(at.background);
   for (std::size_t y = 0; y < static_cast<std::size_t>(window.height); ++y) {
     const float e = along_v.share[y];
     const float d = along_v.by_place[y];
     const float s = along_v.by_sigma[y];
-    const Float4 spot = across * e;
-    const Float4 w = load4(&window.weight[y * kSpotSide + first]) / (variance + per_gain * spot);
-    const Float4 residual = load4(&window.light[y * kSpotSide + first]) - spot - background;
-    const Float4 wr = w * residual;
-    const Float4 we = w * e;
-    const Float4 wd = w * d;
-    const Float4 ws = w * s;
+    const Floats spot = across * e;
+    const Floats w = load(&window.weight[y * kSpotSide + first]) / (variance + per_gain * spot);
+    const Floats residual = load(&window.light[y * kSpotSide + first]) - spot - background;
+    const Floats wr = w * residual;
+    const Floats we = w * e;
+    const Floats wd = w * d;
+    const Floats ws = w * s;
     sums.one += w;
     sums.e += we;
     sums.d += wd;
@@ -69,23 +72,24 @@ ColumnSums sum_columns(const SpotWindow& window, std::size_t first, const SpotPr
     sums.rs += wr * s;
     sums.rr += wr * residual;
   }
-  return sums;
+  result = sums;
 }
 
 using ColumnGroups = std::array<ColumnSums, kGroups>;
 
-NormalEquations normal_equations(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u,
-                                 double flux) {
-  Float4 aa{}, as{}, ab{}, au{}, av{}, ss{}, sb{}, su{}, sv{}, bb{}, bu{}, bv{}, uu{}, uv{}, vv{};
-  Float4 ga{}, gs{}, gb{}, gu{}, gv{}, rr{};
+[[gnu::always_inline]] inline void normal_equations(const ColumnGroups& groups, std::size_t used,
+                                                    const SpotProfile& along_u, double flux,
+                                                    NormalEquations& n) {
+  Floats aa{}, as{}, ab{}, au{}, av{}, ss{}, sb{}, su{}, sv{}, bb{}, bu{}, bv{}, uu{}, uv{}, vv{};
+  Floats ga{}, gs{}, gb{}, gu{}, gv{}, rr{};
   for (std::size_t k = 0; k < used; ++k) {
     const ColumnSums& c = groups[k];
-    const Float4 e = load4(&along_u.share[kLanes * k]);
-    const Float4 d = load4(&along_u.by_place[kLanes * k]);
-    const Float4 s = load4(&along_u.by_sigma[kLanes * k]);
-    const Float4 e_ee = e * c.ee;
-    const Float4 e_ed = e * c.ed;
-    const Float4 by_sigma = s * c.ee + e * c.es;
+    const Floats e = load(&along_u.share[kLanes * k]);
+    const Floats d = load(&along_u.by_place[kLanes * k]);
+    const Floats s = load(&along_u.by_sigma[kLanes * k]);
+    const Floats e_ee = e * c.ee;
+    const Floats e_ed = e * c.ed;
+    const Floats by_sigma = s * c.ee + e * c.es;
     aa += e * e_ee;
     as += e * by_sigma;
     ab += e * c.e;
@@ -109,14 +113,28 @@ NormalEquations normal_equations(const ColumnGroups& groups, std::size_t used, c
     rr += c.rr;
   }
   const double f = flux;
-  const auto sum = [](Float4 x) { return static_cast<double>(sum4(x)); };
-  return {{{sum(aa)},
-           {f * sum(as), f * f * sum(ss)},
-           {sum(ab), f * sum(sb), sum(bb)},
-           {f * sum(au), f * f * sum(su), f * sum(bu), f * f * sum(uu)},
-           {f * sum(av), f * f * sum(sv), f * sum(bv), f * f * sum(uv), f * f * sum(vv)}},
-          {sum(ga), f * sum(gs), sum(gb), f * sum(gu), f * sum(gv)},
-          sum(rr)};
+  const auto total = [](const Floats& x) __attribute__((always_inline)) {
+    return static_cast<double>(sum(x));
+  };
+  n = {{{total(aa)},
+        {f * total(as), f * f * total(ss)},
+        {total(ab), f * total(sb), total(bb)},
+        {f * total(au), f * f * total(su), f * total(bu), f * f * total(uu)},
+        {f * total(av), f * f * total(sv), f * total(bv), f * f * total(uv), f * f * total(vv)}},
+       {total(ga), f * total(gs), total(gb), f * total(gu), f * total(gv)},
+       total(rr)};
+}
+
+// Everything of one iteration that is done on pixels.
+OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, float variance, float per_gain,
+                          SpotProfile& along_u, ColumnGroups& groups, NormalEquations& n) {
+  SpotProfile along_v;
+  along_u.fill(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width);
+  along_v.fill(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height);
+  const std::size_t used = static_cast<std::size_t>(padded(window.width)) / kLanes;
+  for (std::size_t i = 0; i < used; ++i)
+    sum_columns(window, kLanes * i, along_u, along_v, at, variance, per_gain, groups[i]);
+  normal_equations(groups, used, along_u, at.flux, n);
 }
 
 // Lower Cholesky factor and the reciprocals of its diagonal.
@@ -126,14 +144,18 @@ struct Factor {
 };
 
 bool factorise(const double h[kUnknowns][kUnknowns], Factor& f) {
+#pragma GCC unroll 5
   for (int j = 0; j < kUnknowns; ++j) {
     double diagonal = h[j][j];
+#pragma GCC unroll 5
     for (int k = 0; k < j; ++k) diagonal -= f.l[j][k] * f.l[j][k];
     if (!(diagonal > 0)) return false;
     f.l[j][j] = std::sqrt(diagonal);
     f.inverse[j] = 1 / f.l[j][j];
+#pragma GCC unroll 5
     for (int i = j + 1; i < kUnknowns; ++i) {
       double sum = h[i][j];
+#pragma GCC unroll 5
       for (int k = 0; k < j; ++k) sum -= f.l[i][k] * f.l[j][k];
       f.l[i][j] = sum * f.inverse[j];
     }
@@ -143,36 +165,40 @@ bool factorise(const double h[kUnknowns][kUnknowns], Factor& f) {
 
 void solve(const Factor& f, const double* g, double* x) {
   double y[kUnknowns];
+#pragma GCC unroll 5
   for (int i = 0; i < kUnknowns; ++i) {
     double sum = g[i];
+#pragma GCC unroll 5
     for (int k = 0; k < i; ++k) sum -= f.l[i][k] * y[k];
     y[i] = sum * f.inverse[i];
   }
+#pragma GCC unroll 5
   for (int i = kUnknowns - 1; i >= 0; --i) {
     double sum = y[i];
+#pragma GCC unroll 5
     for (int k = i + 1; k < kUnknowns; ++k) sum -= f.l[k][i] * x[k];
     x[i] = sum * f.inverse[i];
   }
 }
 
 // The two shapes that a round model leaves out, from their scores and informations at the solution.
-void set_shape(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u, double flux,
-               double sigma, SpotFit& fit) {
-  Float4 skew_score{}, skew_information{}, stretch_score{}, stretch_information{};
+OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u,
+                           double flux, double sigma, SpotFit& fit) {
+  Floats skew_score{}, skew_information{}, stretch_score{}, stretch_information{};
   for (std::size_t k = 0; k < used; ++k) {
     const ColumnSums& c = groups[k];
-    const Float4 e = load4(&along_u.share[kLanes * k]);
-    const Float4 d = load4(&along_u.by_place[kLanes * k]);
-    const Float4 s = load4(&along_u.by_sigma[kLanes * k]);
+    const Floats e = load(&along_u.share[kLanes * k]);
+    const Floats d = load(&along_u.by_place[kLanes * k]);
+    const Floats s = load(&along_u.by_sigma[kLanes * k]);
     skew_score += d * c.rd;
     skew_information += d * d * c.dd;
     stretch_score += s * c.re - e * c.rs;
     stretch_information += s * (s * c.ee - 2.0F * e * c.es) + e * e * c.ss;
   }
-  const double skewed = flux * static_cast<double>(sum4(skew_information));
-  const double stretched = flux * static_cast<double>(sum4(stretch_information));
-  fit.skew = skewed > 0 ? static_cast<double>(sum4(skew_score)) / skewed : 0;
-  fit.stretch = stretched > 0 ? 2 * sigma * static_cast<double>(sum4(stretch_score)) / stretched : 0;
+  const double skewed = flux * static_cast<double>(sum(skew_information));
+  const double stretched = flux * static_cast<double>(sum(stretch_information));
+  fit.skew = skewed > 0 ? static_cast<double>(sum(skew_score)) / skewed : 0;
+  fit.stretch = stretched > 0 ? 2 * sigma * static_cast<double>(sum(stretch_score)) / stretched : 0;
   fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
 }
 
@@ -197,7 +223,7 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
       1.0 / (static_cast<double>(prior.background_error) * prior.background_error);
   State at{fit.flux, fit.sigma, 0, fit.u - window.left, fit.v - window.top};
   const std::size_t used = static_cast<std::size_t>(padded(window.width)) / kLanes;
-  SpotProfile along_u, along_v;
+  SpotProfile along_u;
   ColumnGroups groups;
   NormalEquations n;
   Factor factor;
@@ -207,11 +233,7 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
   double flux_before = at.flux;
   double sigma_before = at.sigma;
   for (int k = 0; k < kIterations && !settled; ++k) {
-    along_u.fill(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width);
-    along_v.fill(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height);
-    for (std::size_t i = 0; i < used; ++i)
-      groups[i] = sum_columns(window, kLanes * i, along_u, along_v, at, variance, per_gain);
-    n = normal_equations(groups, used, along_u, at.flux);
+    evaluate(window, at, variance, per_gain, along_u, groups, n);
     fit.flux_information = n.h[0][0];
     n.h[1][1] += sigma_information;
     n.g[1] += sigma_information * (static_cast<double>(prior.sigma) - at.sigma);

@@ -9,31 +9,31 @@
 #include <bit>
 #include <cstddef>
 
-#include "components/extractor/float4.hpp"
+#include "components/extractor/lanes.hpp"
 
 namespace omma {
 
-inline constexpr int kSpotSide = 28;  ///< most pixels on a side of a window, padding included
+inline constexpr int kSpotSide = 32;  ///< most pixels on a side of a window, padding included
 
-/// e^x of four x <= 0, relative error below 2e-7; e^-80 below -80.
-inline Float4 exp_of_negative(Float4 x) {
-  x = x < -80.0F ? Float4{} - 80.0F : x;
-  const Int4 n = __builtin_convertvector(x * 1.44269504F - 0.5F, Int4);
-  const Float4 whole = __builtin_convertvector(n, Float4);
-  const Float4 r = (x - whole * 0.693359375F) + whole * 2.12194440e-4F;  // |r| <= ln 2 / 2
-  Float4 p = Float4{} + 1.9875691500e-4F;
+/// e^x of x <= 0, relative error below 2e-7; e^-80 below -80.
+[[gnu::always_inline]] inline Floats exp_of_negative(Floats x) {
+  x = x < -80.0F ? Floats{} - 80.0F : x;
+  const Ints n = __builtin_convertvector(x * 1.44269504F - 0.5F, Ints);
+  const Floats whole = __builtin_convertvector(n, Floats);
+  const Floats r = (x - whole * 0.693359375F) + whole * 2.12194440e-4F;  // |r| <= ln 2 / 2
+  Floats p = Floats{} + 1.9875691500e-4F;
   p = p * r + 1.3981999507e-3F;
   p = p * r + 8.3334519073e-3F;
   p = p * r + 4.1665795894e-2F;
   p = p * r + 1.6666665459e-1F;
   p = p * r + 5.0000001201e-1F;
   p = p * r * r + r + 1.0F;
-  return p * std::bit_cast<Float4>((n + 127) << 23);
+  return p * std::bit_cast<Floats>((n + 127) << 23);
 }
 
-/// The window's side rounded up to whole groups of four.
+/// The window's side rounded up to whole vectors.
 constexpr int padded(int pixels) {
-  return (pixels + 3) & ~3;
+  return (pixels + 7) & ~7;
 }
 
 struct SpotProfile {
@@ -44,32 +44,32 @@ struct SpotProfile {
   /// @param place   of the spot, pixel 0 of the row having its centre at 0 [px]
   /// @param sigma   standard deviation before integration over the pixel [px]
   /// @param pixels  odd; the padding behind them is set to 0
-  void fill(float place, float sigma, int pixels) {
+  [[gnu::always_inline]] void fill(float place, float sigma, int pixels) {
     const float per_sigma = 1.0F / sigma;
-    std::array<float, kSpotSide + 4> below;    // light below the pixel's lower edge
-    std::array<float, kSpotSide + 4> density;  // φ(z)
-    std::array<float, kSpotSide + 4> moment;   // z φ(z)
+    std::array<float, kSpotSide + kLanes> below;    // light below the pixel's lower edge
+    std::array<float, kSpotSide + kLanes> density;  // φ(z)
+    std::array<float, kSpotSide + kLanes> moment;   // z φ(z)
     const int all = padded(pixels);
-    Float4 edge = Float4{0, 1, 2, 3} - (0.5F + place);
-    for (int i = 0; i < all; i += 4, edge += 4.0F) {
-      const Float4 z = edge * per_sigma;
-      const Float4 size = z < 0.0F ? -z : z;
-      const Float4 bell = exp_of_negative(-0.5F * z * z);
-      const Float4 t = 1.0F / (1.0F + 0.23164190F * size);  // 0.3275911 / √2
-      Float4 tail = Float4{} + 1.061405429F;
+    Floats edge = Floats{0, 1, 2, 3, 4, 5, 6, 7} - (0.5F + place);
+    for (int i = 0; i < all; i += 8, edge += 8.0F) {
+      const Floats z = edge * per_sigma;
+      const Floats size = z < 0.0F ? -z : z;
+      const Floats bell = exp_of_negative(-0.5F * z * z);
+      const Floats t = 1.0F / (1.0F + 0.23164190F * size);  // 0.3275911 / √2
+      Floats tail = Floats{} + 1.061405429F;
       tail = tail * t - 1.453152027F;
       tail = tail * t + 1.421413741F;
       tail = tail * t - 0.284496736F;
       tail = 0.5F * (tail * t + 0.254829592F) * t * bell;
-      store4(&below[static_cast<std::size_t>(i)], z < 0.0F ? tail : 1.0F - tail);
-      store4(&density[static_cast<std::size_t>(i)], 0.398942280F * bell);
-      store4(&moment[static_cast<std::size_t>(i)], 0.398942280F * z * bell);
+      store(&below[static_cast<std::size_t>(i)], z < 0.0F ? tail : 1.0F - tail);
+      store(&density[static_cast<std::size_t>(i)], 0.398942280F * bell);
+      store(&moment[static_cast<std::size_t>(i)], 0.398942280F * z * bell);
     }
-    for (int k = 0; k < all; k += 4) {
+    for (int k = 0; k < all; k += 8) {
       const auto i = static_cast<std::size_t>(k);
-      store4(&share[i], load4(&below[i + 1]) - load4(&below[i]));
-      store4(&by_place[i], (load4(&density[i]) - load4(&density[i + 1])) * per_sigma);
-      store4(&by_sigma[i], (load4(&moment[i]) - load4(&moment[i + 1])) * per_sigma);
+      store(&share[i], load(&below[i + 1]) - load(&below[i]));
+      store(&by_place[i], (load(&density[i]) - load(&density[i + 1])) * per_sigma);
+      store(&by_sigma[i], (load(&moment[i]) - load(&moment[i + 1])) * per_sigma);
     }
     for (int k = pixels; k < all; ++k) {
       const auto i = static_cast<std::size_t>(k);

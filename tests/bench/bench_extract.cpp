@@ -96,6 +96,7 @@ int bench_extract(int argc, char** argv) {
   time_of("60 stars, 1 px", 60, 1.0, repeats);
   time_of("500 stars, 1 px", 500, 1.0, repeats);
   time_of("25 targets, 2 px", 25, 2.0, repeats);
+  if (dots == 0) return 0;
   const int only = option(argc, argv, "--sensor", 0);
   for (int k = 1; const Kind& kind : kKinds)
     if (const int number = k++; only == 0 || only == number) accuracy(kind, dots);

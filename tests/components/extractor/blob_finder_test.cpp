@@ -44,9 +44,7 @@ std::multiset<std::vector<int>> by_flood_fill(Picture picture) {
 std::multiset<std::vector<int>> by_runs(const Picture& picture) {
   std::multiset<std::vector<int>> blobs;
   BlobFinder finder(kWidth);
-  const auto sink = [&](const Blob& b) {
-    blobs.insert({static_cast<int>(b.shape.n), b.left, b.right, b.top, b.bottom});
-  };
+  const auto sink = [&](const Blob& b) { blobs.insert({b.area, b.left, b.right, b.top, b.bottom}); };
   finder.start();
   for (int v = 0; v < kHeight; ++v) {
     finder.begin_row();
@@ -55,7 +53,7 @@ std::multiset<std::vector<int>> by_runs(const Picture& picture) {
       int last = u;
       while (last + 1 < kWidth && picture[v][last + 1]) ++last;
       Blob& blob = finder.add_run(u, last, v);
-      for (int x = u; x <= last; ++x) blob.shape.add(1, x - blob.origin_u, v - blob.origin_v);
+      for (int x = u; x <= last; ++x) blob.add(1, x, v);
       u = last;
     }
     finder.end_row(v, sink);

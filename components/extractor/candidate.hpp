@@ -15,10 +15,10 @@ struct Candidate {
   int area = 0;                                  ///< pixels over the threshold
   int saturated = 0;                             ///< of them full
   float u = 0, v = 0;                            ///< centroid of its light over the background [px]
-  float light = 0;                               ///< sum over the background [grey levels]
   float peak = 0;                                ///< brightest pixel over the background [grey levels]
-  float height = 0;  ///< its smoothed light where that is highest, over the background [grey levels]
-  int peaks = 1;     ///< of the blob that this is one of
+  float height = 0;     ///< its smoothed light where that is highest, over the background [grey levels]
+  float threshold = 1;  ///< that the smoothed light was over [standard deviations of a pixel]
+  int peaks = 1;        ///< of the blob that this is one of
   PixelNoise noise;
 };
 

@@ -88,7 +88,11 @@ template <class Pixel>
     over[i] = value > start + slope * static_cast<float>(static_cast<std::int32_t>(i)) ? 1 : 0;
   }
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < kStrip; ++i) bits |= static_cast<std::uint64_t>(over[i]) << i;
+  for (std::size_t i = 0; i < kStrip; i += 8) {
+    std::uint64_t eight = 0;  // bytes of 0 or 1; the product gathers them in its highest byte
+    for (std::size_t k = 0; k < 8; ++k) eight |= static_cast<std::uint64_t>(over[i + k]) << (8 * k);
+    bits |= ((eight * 0x0102040810204080U) >> 56) << i;
+  }
   return bits;
 }
 OMMA_CLONES std::uint64_t bits_of(const std::uint8_t* above, const std::uint8_t* here,
@@ -115,6 +119,7 @@ DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_
   const std::size_t cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
                             static_cast<std::size_t>((height + kCell - 1) / kCell);
   threshold_.resize(cells);
+  row_threshold_.resize(static_cast<std::size_t>((width + kCell - 1) / kCell + 4));
 }
 
 float DetectionFilter::threshold_of(int row, int column) const noexcept {
@@ -198,10 +203,13 @@ bool DetectionFilter::row(int v) noexcept {
                across_[static_cast<std::size_t>((v + 1) % 3)].data(), width_, averaged_.data());
   find_over(averaged_.data(), word_limit_.data(), count, over_.data());
   bool any = false;
+  bool prepared = false;
   for (int k = 0; k < count; ++k) {
     std::uint64_t& word = words_[static_cast<std::size_t>(k)];
     word = 0;
     if (over_[static_cast<std::size_t>(k)] == 0) continue;
+    if (!prepared) prepare_row(v);
+    prepared = true;
     for (int i = 0; i < kStripsOfWord; ++i) {
       const int strip = k * kStripsOfWord + i;
       if (strip_over(&averaged_[static_cast<std::size_t>(strip * kStrip)],
@@ -213,19 +221,23 @@ bool DetectionFilter::row(int v) noexcept {
   return any;
 }
 
-// The threshold is bilinear between the cells' centres, which lie between two strips.
-std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
-  static_assert(kCell == 2 * kStrip);
+// The threshold along the middle of row v, at the cells' centres and one beyond on each side.
+void DetectionFilter::prepare_row(int v) noexcept {
   const float y = (static_cast<float>(v) + 0.5F) / kCell - 0.5F;
   const int row = static_cast<int>(std::floor(y));
   const float down = y - static_cast<float>(row);
-  const int column = left_cell(strip);
-  const auto middle = [&](int c) {
-    const float top = threshold_of(row, c);
-    return top + down * (threshold_of(row + 1, c) - top);
-  };
-  const float slope = (middle(column + 1) - middle(column)) / kCell;
-  const float start = middle(column) + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
+  for (int column = -1; column <= columns_; ++column) {
+    const float top = threshold_of(row, column);
+    row_threshold_[static_cast<std::size_t>(column + 1)] = top + down * (threshold_of(row + 1, column) - top);
+  }
+}
+
+// The threshold is bilinear between the cells' centres, which lie between two strips.
+std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
+  static_assert(kCell == 2 * kStrip);
+  const float* middle = &row_threshold_[static_cast<std::size_t>(left_cell(strip) + 1)];
+  const float slope = (middle[1] - middle[0]) / kCell;
+  const float start = middle[0] + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
   const int turn = invert_ ? kFilterSum * image_->white_level : 0;
   const int first = strip * kStrip;
   const auto bits = [&]<class Pixel>(Pixel /*type*/) -> std::uint64_t {

@@ -37,6 +37,7 @@ class DetectionFilter {
  private:
   void choose_scale(const BackgroundMap& background) noexcept;
   void average_row(int v, std::uint8_t* out) noexcept;
+  void prepare_row(int v) noexcept;
   std::uint64_t exact(int v, int strip) const noexcept;
   float threshold_of(int row, int column) const noexcept;
 
@@ -45,7 +46,8 @@ class DetectionFilter {
   int columns_ = 0, rows_ = 0;
   const ImageView* image_ = nullptr;
   bool invert_ = false;
-  std::vector<float> threshold_;  // of the smoothed value, one a cell
+  std::vector<float> row_threshold_;  // of the row at hand
+  std::vector<float> threshold_;      // of the smoothed value, one a cell
   // Pixels as the quick pass sees them: 8 bits of (x − pedestal) · 2^exponent, full where it does not fit.
   int pedestal_ = 0;
   int exponent_ = 0;

@@ -1,20 +1,26 @@
 #include "components/extractor/dot_extractor.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 
 namespace omma {
+namespace {
+
+// Width of the point spread from which the image is searched at half its resolution too [px].
+constexpr float kWide = 1.25F;
+
+}  // namespace
 
 DotExtractor::DotExtractor(int width, int height)
     : width_(width),
       height_(height),
-      background_(width, height),
-      filter_(width, height),
-      blobs_(width),
+      fine_(width, height),
+      halved_(width, height),
+      coarse_(std::max(3, width / 2), std::max(3, height / 2)),
       measurement_(width, height, kCandidates) {
   candidates_.reserve(kCandidates);
+  coarse_candidates_.reserve(kCandidates / 2);
   found_.reserve(kCandidates);
   order_.reserve(kCandidates);
 }
@@ -28,114 +34,49 @@ void DotExtractor::extract(const ImageView& image, const ExtractorParameters& pa
   if (image.empty() || image.width != width_ || image.height != height_ || width_ < 3 || height_ < 3) return;
   if (parameters.polarity != DotPolarity::kBright) search(image, parameters, true);
   if (parameters.polarity != DotPolarity::kDark) search(image, parameters, false);
-  list.background = background_.median_level();
-  list.noise = background_.median_noise();
+  list.background = fine_.background().median_level();
+  list.noise = fine_.background().median_noise();
   keep_best(list);
 }
 
 void DotExtractor::search(const ImageView& image, const ExtractorParameters& parameters,
                           bool invert) noexcept {
-  background_.build(image, invert);
-  filter_.start(image, invert, background_, parameters.threshold);
-  blobs_.start();
   candidates_.clear();
-  const auto finished = [&](const Blob& blob) { add_candidates(image, invert, blob, parameters); };
-
-  for (int v = 1; v < height_ - 1; ++v) {
-    const bool any = filter_.row(v);
-    if (!any && blobs_.idle()) continue;
-    blobs_.begin_row();
-    if (any) add_runs(image, invert, v);
-    blobs_.end_row(v, finished);
+  overflow_ += fine_.find(image, invert, parameters, candidates_);
+  const float width = measurement_.start(image, invert, parameters, candidates_);
+  if (width > kWide && width_ >= 6 && height_ >= 6) {
+    add_wide(image, parameters, invert, width);
+    measurement_.start(image, invert, parameters, candidates_);
   }
-  blobs_.finish(finished);
-  measurement_.measure(image, invert, parameters, candidates_, found_);
+  measurement_.measure(candidates_, found_);
 }
 
-void DotExtractor::add_candidates(const ImageView& image, bool invert, const Blob& blob,
-                                  const ExtractorParameters& parameters) noexcept {
-  if (std::max(blob.width(), blob.height()) > parameters.max_diameter) return;
-  Candidate candidate;
-  candidate.left = blob.left;
-  candidate.right = blob.right;
-  candidate.top = blob.top;
-  candidate.bottom = blob.bottom;
-  candidate.area = blob.area;
-  candidate.saturated = blob.saturated;
-  const float u = 0.5F * static_cast<float>(blob.left + blob.right);
-  const float v = 0.5F * static_cast<float>(blob.top + blob.bottom);
-  PixelNoise& noise = candidate.noise;
-  noise = {background_.level(u, v), background_.noise(u, v), parameters.gain};
-  if (noise.gain <= 0) {  // unknown: the background as if it were all shot noise
-    noise.gain = std::max(1.0F, noise.background - parameters.black_level) / (noise.sigma * noise.sigma);
-  }
-  const auto light = [&](std::int64_t sum, std::int64_t pixels) {
-    return static_cast<double>(sum) - static_cast<double>(noise.background) * static_cast<double>(pixels);
-  };
-  const double over = light(blob.light, blob.area);
-  if (!(over > 0)) return;
-  candidate.light = static_cast<float>(over);
-  candidate.u = static_cast<float>(blob.origin_u + light(blob.light_u, blob.sum_u) / over);
-  candidate.v = static_cast<float>(blob.origin_v + light(blob.light_v, blob.sum_v) / over);
-  candidate.peak = static_cast<float>(blob.peak) - noise.background;
-  candidate.height = 0.5F * candidate.peak;
-  find_peaks(image, invert, candidate, peaks_);
-  candidate.peaks = std::max(1, static_cast<int>(peaks_.size()));
-  const auto add = [&] {
+// Candidates of the halved image take the place of what the fine scale made of the same spots: pieces, if
+// anything.
+void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& parameters, bool invert,
+                            float width) noexcept {
+  coarse_candidates_.clear();
+  overflow_ += coarse_.find(halved_.build(image), invert, parameters, coarse_candidates_);
+  for (Candidate& candidate : coarse_candidates_) HalvedImage::enlarge(fine_.background(), candidate);
+  std::sort(coarse_candidates_.begin(), coarse_candidates_.end(),
+            [](const Candidate& a, const Candidate& b) { return a.v != b.v ? a.v < b.v : a.u < b.u; });
+  const float near = 2 * width + 1;
+  std::erase_if(candidates_, [&](const Candidate& fine) {
+    auto coarse = std::lower_bound(coarse_candidates_.begin(), coarse_candidates_.end(), fine.v - near,
+                                   [](const Candidate& c, float v) { return c.v < v; });
+    for (; coarse != coarse_candidates_.end() && coarse->v < fine.v + near; ++coarse) {
+      const float du = coarse->u - fine.u;
+      const float dv = coarse->v - fine.v;
+      if (du * du + dv * dv < near * near) return true;
+    }
+    return false;
+  });
+  for (const Candidate& candidate : coarse_candidates_) {
     if (candidates_.size() < kCandidates) {
       candidates_.push_back(candidate);
     } else {
       ++overflow_;
     }
-  };
-  if (peaks_.empty()) return add();
-  candidate.area /= candidate.peaks;
-  for (const Peak& peak : peaks_) {
-    candidate.height = static_cast<float>(peak.height) / 16 - noise.background;
-    if (peaks_.size() > 1) {
-      candidate.u = static_cast<float>(peak.u);
-      candidate.v = static_cast<float>(peak.v);
-    }
-    add();
-  }
-}
-
-// The runs of set bits of the row, each given to its blob.
-void DotExtractor::add_runs(const ImageView& image, bool invert, int v) noexcept {
-  int first = -1;  // of a run that reaches into the next word
-  for (int k = 0; k < filter_.words(); ++k) {
-    std::uint64_t word = filter_.word(k);
-    const int base = k * DetectionFilter::kWord;
-    if (first >= 0) {
-      const int ones = std::countr_one(word);
-      if (ones == 64) continue;
-      add_pixels(image, invert, first, base + ones - 1, v, blobs_.add_run(first, base + ones - 1, v));
-      first = -1;
-      word &= ~((1ULL << ones) - 1);
-    }
-    while (word != 0) {
-      const int start = std::countr_zero(word);
-      const int ones = std::countr_one(word >> start);
-      if (start + ones == 64) {
-        first = base + start;
-        break;
-      }
-      const int end = base + start + ones - 1;
-      add_pixels(image, invert, base + start, end, v, blobs_.add_run(base + start, end, v));
-      word &= ~(((1ULL << ones) - 1) << start);
-    }
-  }
-  if (first >= 0) add_pixels(image, invert, first, width_ - 1, v, blobs_.add_run(first, width_ - 1, v));
-}
-
-void DotExtractor::add_pixels(const ImageView& image, bool invert, int first, int last, int v,
-                              Blob& blob) noexcept {
-  for (int u = first; u <= last; ++u) {
-    const int raw =
-        image.format == PixelFormat::kGrey8 ? image.row<std::uint8_t>(v)[u] : image.row<std::uint16_t>(v)[u];
-    const int value = invert ? image.white_level - raw : raw;
-    blob.add(value, u, v);
-    if (value >= image.white_level) ++blob.saturated;
   }
 }
 

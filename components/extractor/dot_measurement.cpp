@@ -8,14 +8,14 @@
 namespace omma {
 namespace {
 
-constexpr std::size_t kBrightest = 24;  // spots the width is learnt from
+constexpr std::size_t kSample = 16;  // spots the width is learnt from
 constexpr std::size_t kEnough = 6;
-constexpr float kWidthSnr = 12;        // their least signal-to-noise ratio
+constexpr float kWidthSnr = 8;         // their least signal-to-noise ratio
 constexpr float kNarrowest = 0.55F;    // spot of an image, in widths of its point spread
-constexpr double kModelError = 0.003;  // what no model of a real spot is better than [px]
+constexpr double kModelError = 0.002;  // what no model of a real spot is better than [px]
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
-constexpr double kSecondOrder = 4;
+constexpr double kSecondOrder = 11;
 constexpr int kLeastPixels = 12;         // of a window
 constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
 constexpr int kSweeps = 2;               // over spots in each other's light, after the first
@@ -29,6 +29,12 @@ double logarithm(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);  // 1/2 <= mantissa < 1
   return M_LN2 * (exponent + 2 * mantissa - 2);
+}
+
+// Area of a Gaussian over its threshold: 2 π σ² ln(height / threshold).
+double width_of(const Candidate& candidate) {
+  const double over = candidate.height / (candidate.threshold * candidate.noise.sigma);
+  return std::sqrt(candidate.area / (2 * M_PI * logarithm(std::max(1.6, over))));
 }
 
 // Square root of the sum of squares; std::hypot is not the same on every machine.
@@ -45,7 +51,7 @@ double disc_sigma(const Candidate& candidate) {
 
 DotMeasurement::DotMeasurement(int width, int height, std::size_t dots) : field_(width, height, dots) {
   dot_of_spot_.reserve(dots);
-  widths_.reserve(kBrightest);
+  widths_.reserve(kSample);
 }
 
 // The pixels within `radius` of (u, v); full ones and those outside the image do not count.
@@ -87,10 +93,7 @@ void DotMeasurement::load(double u, double v, int radius) noexcept {
 void DotMeasurement::start_at(const Candidate& candidate) noexcept {
   fit_.u = candidate.u;
   fit_.v = candidate.v;
-  // Area of a Gaussian over its threshold: 2 π σ² ln(height / threshold).
-  const double wide =
-      std::sqrt(candidate.area /
-                (2 * M_PI * logarithm(std::max(1.6F, candidate.height / (1.9F * candidate.noise.sigma)))));
+  const double wide = width_of(candidate);
   // A blob about as wide as the point spread is one.
   if (!width_known_) {
     fit_.sigma = std::clamp(wide, 0.6, 4.0);
@@ -179,6 +182,10 @@ bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self,
   return true;
 }
 
+bool DotMeasurement::may_be_point(const Candidate& candidate) const noexcept {
+  return width_of(candidate) < 1.3 * static_cast<double>(parameters_->max_point_sigma);
+}
+
 bool DotMeasurement::measure_disc(const Candidate& candidate, Dot& dot) const noexcept {
   dot = Dot{};
   if (candidate.peaks > 1 || disc_sigma(candidate) < kLeastDiscSigma) return false;
@@ -211,16 +218,16 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   set_narrowest(parameters_->min_sigma);
   prior_.sigma = 1.0F;
   prior_.sigma_error = 0.7F;
-  std::size_t tried = 0;
-  for (const Candidate& candidate : candidates) {
-    if (widths_.size() == kBrightest || tried == 2 * kBrightest) break;
+  // Some from all: the very brightest may be something else than stars.
+  const std::size_t stride = std::max<std::size_t>(1, candidates.size() / (2 * kSample));
+  for (std::size_t i = 0; i < candidates.size() && widths_.size() < kSample; i += stride) {
+    const Candidate& candidate = candidates[i];
     if (candidate.saturated > 0 || candidate.peaks > 1) continue;
-    if (disc_sigma(candidate) > parameters_->max_point_sigma) continue;
-    ++tried;
+    if (!may_be_point(candidate)) continue;
     start_at(candidate);
     if (!fit_point(candidate, field_.size())) continue;
     if (fit_.sigma < parameters_->min_sigma || fit_.sigma > parameters_->max_point_sigma) continue;
-    if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) break;
+    if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) continue;
     widths_.push_back(static_cast<float>(fit_.sigma));
   }
   if (widths_.size() < kEnough) return;
@@ -243,13 +250,15 @@ void DotMeasurement::set_narrowest(float sigma) noexcept {
   least_beside_ = static_cast<double>(profile.share[2]) / static_cast<double>(profile.share[1]);
 }
 
-// Spots in each other's light once more, now that all are known.
-void DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
+// Spots in each other's light once more, now that all are known. Returns whether there are any.
+bool DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
                                        std::vector<Dot>& dots) noexcept {
+  bool any = false;
   for (std::size_t i = 0; i < field_.size(); ++i) {
     if (dot_of_spot_[i] < 0) continue;
     start_at(field_[i]);
     if (field_.is_alone(i, radius_for(fit_.sigma))) continue;
+    any = true;
     Dot dot;
     if (measure_point(candidates[i], i, dot) &&
         !field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) {
@@ -262,10 +271,11 @@ void DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
       dot_of_spot_[i] = -1;
     }
   }
+  return any;
 }
 
-void DotMeasurement::measure(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-                             std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept {
+float DotMeasurement::start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
+                            std::vector<Candidate>& candidates) noexcept {
   image_ = &image;
   parameters_ = &parameters;
   invert_ = invert;
@@ -276,6 +286,10 @@ void DotMeasurement::measure(const ImageView& image, bool invert, const Extracto
     return a.v != b.v ? a.v < b.v : a.u < b.u;
   });
   learn_width(candidates);
+  return width_known_ ? prior_.sigma : 0;
+}
+
+void DotMeasurement::measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept {
   // Peaks of one blob are taken to be spots before they are measured: their light must not draw each other.
   for (const Candidate& candidate : candidates) {
     FieldSpot spot;
@@ -293,7 +307,7 @@ void DotMeasurement::measure(const ImageView& image, bool invert, const Extracto
     Dot dot;
     start_at(candidate);
     if (field_[i].flux > 0) start_at(field_[i]);
-    const bool point = disc_sigma(candidate) < parameters.max_point_sigma && measure_point(candidate, i, dot);
+    const bool point = may_be_point(candidate) && measure_point(candidate, i, dot);
     field_.set(i, {});
     if (point) {
       if (field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) continue;
@@ -305,7 +319,8 @@ void DotMeasurement::measure(const ImageView& image, bool invert, const Extracto
     finish(candidate, dot);
     dots.push_back(dot);
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) remeasure_crowded(candidates, dots);
+  for (int sweep = 0; sweep < kSweeps && remeasure_crowded(candidates, dots); ++sweep) {
+  }
   std::erase_if(dots, [](const Dot& dot) { return dot.snr == 0; });
 }
 

@@ -21,14 +21,17 @@ class DotMeasurement {
   /// For images of at most this size, and at most so many dots; nothing is allocated later.
   DotMeasurement(int width, int height, std::size_t dots);
 
-  /// Measures the candidates and adds what is found to `dots`, up to their capacity.
-  /// @param invert      the dots are darker than the background
-  /// @param candidates  are put into order, brightest first
-  void measure(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-               std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+  /// Takes an image and puts its candidates into order, brightest first.
+  /// @param invert  the dots are darker than the background
+  /// @return width of the image's point spread [px]; 0 where too few spots tell it
+  float start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
+              std::vector<Candidate>& candidates) noexcept;
+  /// Measures the candidates last given to start and adds what is found to `dots`, up to their capacity.
+  void measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
 
  private:
   void learn_width(const std::vector<Candidate>& candidates) noexcept;
+  bool may_be_point(const Candidate& candidate) const noexcept;
   bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
   void start_at(const Candidate& candidate) noexcept;
@@ -38,7 +41,7 @@ class DotMeasurement {
   void load(double u, double v, int radius) noexcept;
   void set_narrowest(float sigma) noexcept;
   bool is_hot_pixel(const Candidate& candidate) const noexcept;
-  void remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+  bool remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
   void finish(const Candidate& candidate, Dot& dot) const noexcept;
 
   const ImageView* image_ = nullptr;  // while measure runs

@@ -137,26 +137,27 @@ OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, float varia
   normal_equations(groups, used, along_u, at.flux, n);
 }
 
-// Lower Cholesky factor and the reciprocals of its diagonal.
+// L D Lᵀ of the normal matrix, L with ones on its diagonal.
 struct Factor {
   double l[kUnknowns][kUnknowns];
-  double inverse[kUnknowns];
+  double inverse[kUnknowns];  // of D
 };
 
 bool factorise(const double h[kUnknowns][kUnknowns], Factor& f) {
+  double ld[kUnknowns][kUnknowns];  // L D
 #pragma GCC unroll 5
   for (int j = 0; j < kUnknowns; ++j) {
     double diagonal = h[j][j];
 #pragma GCC unroll 5
-    for (int k = 0; k < j; ++k) diagonal -= f.l[j][k] * f.l[j][k];
+    for (int k = 0; k < j; ++k) diagonal -= f.l[j][k] * ld[j][k];
     if (!(diagonal > 0)) return false;
-    f.l[j][j] = std::sqrt(diagonal);
-    f.inverse[j] = 1 / f.l[j][j];
+    f.inverse[j] = 1 / diagonal;
 #pragma GCC unroll 5
     for (int i = j + 1; i < kUnknowns; ++i) {
       double sum = h[i][j];
 #pragma GCC unroll 5
-      for (int k = 0; k < j; ++k) sum -= f.l[i][k] * f.l[j][k];
+      for (int k = 0; k < j; ++k) sum -= ld[i][k] * f.l[j][k];
+      ld[i][j] = sum;
       f.l[i][j] = sum * f.inverse[j];
     }
   }
@@ -167,17 +168,15 @@ void solve(const Factor& f, const double* g, double* x) {
   double y[kUnknowns];
 #pragma GCC unroll 5
   for (int i = 0; i < kUnknowns; ++i) {
-    double sum = g[i];
+    y[i] = g[i];
 #pragma GCC unroll 5
-    for (int k = 0; k < i; ++k) sum -= f.l[i][k] * y[k];
-    y[i] = sum * f.inverse[i];
+    for (int k = 0; k < i; ++k) y[i] -= f.l[i][k] * y[k];
   }
 #pragma GCC unroll 5
   for (int i = kUnknowns - 1; i >= 0; --i) {
-    double sum = y[i];
+    x[i] = y[i] * f.inverse[i];
 #pragma GCC unroll 5
-    for (int k = i + 1; k < kUnknowns; ++k) sum -= f.l[k][i] * x[k];
-    x[i] = sum * f.inverse[i];
+    for (int k = i + 1; k < kUnknowns; ++k) x[i] -= f.l[k][i] * x[k];
   }
 }
 
@@ -202,13 +201,11 @@ OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const S
   fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
 }
 
-// Covariance of the place from the last block of the factor: the inverse of L Lᵀ.
+// Covariance of the place from the last block: the inverse of L D Lᵀ.
 Eigen::Matrix2d covariance_of_place(const Factor& f) {
-  const double a = f.inverse[3];
-  const double c = f.inverse[4];
-  const double b = -f.l[4][3] * a * c;  // L⁻¹ = [a 0; b c]
+  const double l = f.l[4][3];
   Eigen::Matrix2d covariance;
-  covariance << a * a + b * b, b * c, b * c, c * c;
+  covariance << f.inverse[3] + l * l * f.inverse[4], -l * f.inverse[4], -l * f.inverse[4], f.inverse[4];
   return covariance;
 }
 
@@ -251,9 +248,10 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
     at.u += step[3];
     at.v += step[4];
     if (!(at.u > -1 && at.u < window.width && at.v > -1 && at.v < window.height)) return;
-    settled = std::abs(step[3]) < kLastStep * factor.inverse[3] &&
-              std::abs(step[4]) < kLastStep * factor.inverse[4] &&
-              std::abs(at.sigma - sigma_before) < kLastStep * factor.inverse[1];
+    const double change = at.sigma - sigma_before;
+    settled = step[3] * step[3] < kLastStep * kLastStep * factor.inverse[3] &&
+              step[4] * step[4] < kLastStep * kLastStep * factor.inverse[4] &&
+              change * change < kLastStep * kLastStep * factor.inverse[1];
   }
   fit.covariance = covariance_of_place(factor);
   if (!settled) {  // it still moves by so much

@@ -1,0 +1,119 @@
+#include "components/extractor/candidate_search.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace omma {
+
+CandidateSearch::CandidateSearch(int width, int height)
+    : width_(width), height_(height), background_(width, height), filter_(width, height), blobs_(width) {}
+
+std::uint32_t CandidateSearch::find(const ImageView& image, bool invert,
+                                    const ExtractorParameters& parameters,
+                                    std::vector<Candidate>& candidates) noexcept {
+  image_ = image;
+  invert_ = invert;
+  parameters_ = &parameters;
+  candidates_ = &candidates;
+  without_room_ = 0;
+  background_.build(image, invert);
+  filter_.start(image, invert, background_, parameters.threshold);
+  blobs_.start();
+  const auto finished = [this](const Blob& blob) { add_candidates(blob); };
+  for (int v = 1; v < height_ - 1; ++v) {
+    const bool any = filter_.row(v);
+    if (!any && blobs_.idle()) continue;
+    blobs_.begin_row();
+    if (any) add_runs(v);
+    blobs_.end_row(v, finished);
+  }
+  blobs_.finish(finished);
+  return without_room_;
+}
+
+void CandidateSearch::add_candidates(const Blob& blob) noexcept {
+  if (std::max(blob.width(), blob.height()) > parameters_->max_diameter) return;
+  Candidate candidate;
+  candidate.left = blob.left;
+  candidate.right = blob.right;
+  candidate.top = blob.top;
+  candidate.bottom = blob.bottom;
+  candidate.area = blob.area;
+  candidate.saturated = blob.saturated;
+  const float u = 0.5F * static_cast<float>(blob.left + blob.right);
+  const float v = 0.5F * static_cast<float>(blob.top + blob.bottom);
+  PixelNoise& noise = candidate.noise;
+  noise = {background_.level(u, v), background_.noise(u, v), parameters_->gain};
+  if (noise.gain <= 0) {  // unknown: the background as if it were all shot noise
+    noise.gain = std::max(1.0F, noise.background - parameters_->black_level) / (noise.sigma * noise.sigma);
+  }
+  const auto light = [&](std::int64_t sum, std::int64_t pixels) {
+    return static_cast<double>(sum) - static_cast<double>(noise.background) * static_cast<double>(pixels);
+  };
+  const double over = light(blob.light, blob.area);
+  if (!(over > 0)) return;
+  candidate.u = static_cast<float>(blob.origin_u + light(blob.light_u, blob.sum_u) / over);
+  candidate.v = static_cast<float>(blob.origin_v + light(blob.light_v, blob.sum_v) / over);
+  candidate.peak = static_cast<float>(blob.peak) - noise.background;
+  candidate.threshold = parameters_->threshold * kFilterDeviation / kFilterSum;
+  candidate.height = 0.5F * candidate.peak;
+  find_peaks(image_, invert_, candidate, peaks_);
+  candidate.peaks = std::max(1, static_cast<int>(peaks_.size()));
+  const auto add = [&] {
+    if (candidates_->size() < candidates_->capacity()) {
+      candidates_->push_back(candidate);
+    } else {
+      ++without_room_;
+    }
+  };
+  if (peaks_.empty()) return add();
+  candidate.area /= candidate.peaks;
+  for (const Peak& peak : peaks_) {
+    candidate.height = static_cast<float>(peak.height) / 16 - noise.background;
+    if (peaks_.size() > 1) {
+      candidate.u = static_cast<float>(peak.u);
+      candidate.v = static_cast<float>(peak.v);
+    }
+    add();
+  }
+}
+
+// The runs of set bits of the row, each given to its blob.
+void CandidateSearch::add_runs(int v) noexcept {
+  int first = -1;  // of a run that reaches into the next word
+  for (int k = 0; k < filter_.words(); ++k) {
+    std::uint64_t word = filter_.word(k);
+    const int base = k * DetectionFilter::kWord;
+    if (first >= 0) {
+      const int ones = std::countr_one(word);
+      if (ones == 64) continue;
+      add_pixels(first, base + ones - 1, v, blobs_.add_run(first, base + ones - 1, v));
+      first = -1;
+      word &= ~((1ULL << ones) - 1);
+    }
+    while (word != 0) {
+      const int start = std::countr_zero(word);
+      const int ones = std::countr_one(word >> start);
+      if (start + ones == 64) {
+        first = base + start;
+        break;
+      }
+      const int end = base + start + ones - 1;
+      add_pixels(base + start, end, v, blobs_.add_run(base + start, end, v));
+      word &= ~(((1ULL << ones) - 1) << start);
+    }
+  }
+  if (first >= 0) add_pixels(first, width_ - 1, v, blobs_.add_run(first, width_ - 1, v));
+}
+
+void CandidateSearch::add_pixels(int first, int last, int v, Blob& blob) noexcept {
+  for (int u = first; u <= last; ++u) {
+    const int raw = image_.format == PixelFormat::kGrey8 ? image_.row<std::uint8_t>(v)[u]
+                                                         : image_.row<std::uint16_t>(v)[u];
+    const int value = invert_ ? image_.white_level - raw : raw;
+    blob.add(value, u, v);
+    if (value >= image_.white_level) ++blob.saturated;
+  }
+}
+
+}  // namespace omma

@@ -1,0 +1,48 @@
+// Image → candidates at one scale: background and noise map, detection filter, connected components, peaks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "components/extractor/background_map.hpp"
+#include "components/extractor/blob_finder.hpp"
+#include "components/extractor/blob_peaks.hpp"
+#include "components/extractor/candidate.hpp"
+#include "components/extractor/detection_filter.hpp"
+#include "components/extractor/extractor_parameters.hpp"
+#include "hal/image.hpp"
+
+namespace omma {
+
+class CandidateSearch {
+ public:
+  /// For images of exactly this size, at least 3×3 [px].
+  CandidateSearch(int width, int height);
+
+  /// Adds the image's candidates, in the order in which their blobs end, up to the capacity of `candidates`.
+  /// @param invert  the dots are darker than the background
+  /// @return how many found no room
+  std::uint32_t find(const ImageView& image, bool invert, const ExtractorParameters& parameters,
+                     std::vector<Candidate>& candidates) noexcept;
+
+  const BackgroundMap& background() const { return background_; }  ///< of the last image
+
+ private:
+  void add_runs(int v) noexcept;
+  void add_pixels(int first, int last, int v, Blob& blob) noexcept;
+  void add_candidates(const Blob& blob) noexcept;
+
+  int width_, height_;
+  BackgroundMap background_;
+  DetectionFilter filter_;
+  BlobFinder blobs_;
+  Peaks peaks_;
+  // While find runs:
+  ImageView image_;
+  bool invert_ = false;
+  const ExtractorParameters* parameters_ = nullptr;
+  std::vector<Candidate>* candidates_ = nullptr;
+  std::uint32_t without_room_ = 0;
+};
+
+}  // namespace omma

@@ -8,6 +8,7 @@
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
 #include "ground/design/design.hpp"
+#include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
   omma::ground::add_compare(app, context);
   omma::ground::add_calibrate(app, context);
   omma::ground::add_design(app, context);
+  omma::ground::add_experiment(app, context);
   omma::ground::add_stars(app, context);
   try {
     app.parse(argc, argv);

@@ -56,6 +56,10 @@ void CameraRenderer::add_sky(const SceneInstant& midpoint, std::span<const Scene
   SkyView sky;
   sky.camera_from_j2000 = camera_from_j2000(midpoint);
   for (const SceneInstant& instant : drawn) sky.drawn.push_back(camera_from_j2000(instant));
+  if (scenario_.ground) {
+    sky.ground = scenario_.ground;
+    sky.ground->up = view_.camera().rig_from_camera.rotation.conjugate() * scenario_.ground->up;
+  }
   add_stars(view_, sky, stars_, scenario_.moon, cards, list_);
   if (scenario_.moon) add_moon(view_, sky, *scenario_.moon, cards, quadrature_, list_);
 }

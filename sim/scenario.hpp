@@ -14,6 +14,7 @@
 #include "components/catalogue/target.hpp"
 #include "components/geometry/rig.hpp"
 #include "config/limits.hpp"
+#include "sim/ground.hpp"
 #include "sim/motion.hpp"
 #include "sim/sensor.hpp"
 
@@ -57,6 +58,7 @@ struct Scenario {
   Motion rig_motion;             ///< j2000_from_rig, rotation only
   std::vector<Card> cards;
   std::optional<Moon> moon;
+  std::optional<Ground> ground;  ///< none in orbit
 
   double time_of(std::uint64_t frame) const { return static_cast<double>(frame) / frame_rate; }  ///< [s]
 };

@@ -200,6 +200,19 @@ Moon moon_of(const TomlTable& table) {
   return moon;
 }
 
+Ground ground_of(const TomlTable& table) {
+  Ground ground;
+  ground.up = vector_of(table, "up_rig");
+  if (!(std::abs(ground.up.norm() - 1) <= 1e-3)) {
+    throw table.error("up_rig", "a vector of length 1", "length " + std::to_string(ground.up.norm()));
+  }
+  ground.up.normalize();
+  ground.skyline = kDegree * table.number("skyline_deg", {-5, 89}, 0);
+  ground.extinction = table.number("extinction_mag", {0, 5}, 0);
+  table.refuse_unknown_keys();
+  return ground;
+}
+
 double epoch_of(const TomlTable& root) {
   try {
     return parse_utc(root.text("epoch_utc"));
@@ -230,6 +243,7 @@ Scenario read_scenario_file(const std::filesystem::path& file) {
   read_sensors(root, scenario);
   scenario.cards = cards_of(root);
   if (const auto moon = root.table_if("moon")) scenario.moon = moon_of(*moon);
+  if (const auto ground = root.table_if("ground")) scenario.ground = ground_of(*ground);
   root.refuse_unknown_keys();
   return scenario;
 }

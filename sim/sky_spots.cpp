@@ -35,9 +35,10 @@ void add_stars(const CameraView& camera, const SkyView& view, std::span<const Sk
     spot.kind = SpotKind::kStar;
     spot.hr = star.hr;
     double kept = 0;
-    if (!camera.project(direction, spot.centre, kept) || hidden(direction, cards)) continue;
+    const double through = view.transmission(direction);
+    if (through == 0 || !camera.project(direction, spot.centre, kept) || hidden(direction, cards)) continue;
     const std::size_t first = list.points.size();
-    const double flux = camera.star_electrons(star.magnitude) * share;
+    const double flux = camera.star_electrons(star.magnitude) * share * through;
     for (const Eigen::Matrix3d& camera_from_j2000 : view.drawn) {
       add_point(camera, camera_from_j2000 * star.direction, flux, list.points);
     }
@@ -51,12 +52,14 @@ void add_moon(const CameraView& camera, const SkyView& view, const Moon& moon,
   Spot spot;
   spot.kind = SpotKind::kMoon;
   double kept = 0;
-  if (!camera.project(direction, spot.centre, kept) || hidden(direction, cards)) return;
+  const double through = view.transmission(direction);
+  if (through == 0 || !camera.project(direction, spot.centre, kept) || hidden(direction, cards)) return;
   const double radius = 0.5 * moon.diameter;
   const auto& rule =
       quadrature.rule(radius / camera.camera().lens.pixel_angle() / camera.point_spread().sigma());
   const Eigen::Matrix<double, 3, 2> basis = std::tan(radius) * tangent_basis(moon.direction);
-  const double flux = camera.star_electrons(moon.magnitude) / static_cast<double>(view.drawn.size());
+  const double flux =
+      through * camera.star_electrons(moon.magnitude) / static_cast<double>(view.drawn.size());
   const std::size_t first = list.points.size();
   for (const Eigen::Matrix3d& camera_from_j2000 : view.drawn) {
     for (const QuadraturePoint& q : rule) {

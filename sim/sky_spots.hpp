@@ -17,13 +17,19 @@ namespace omma::sim {
 struct SkyView {
   Eigen::Matrix3d camera_from_j2000;   ///< at the midpoint
   std::vector<Eigen::Matrix3d> drawn;  ///< camera_from_j2000 at each drawn instant, of equal weight
+  std::optional<Ground> ground;        ///< its `up` in the camera's frame
+
+  /// Share of the light that comes from a direction of the camera's frame.
+  double transmission(const Eigen::Vector3d& direction) const {
+    return ground ? ground->transmission(ground->up.dot(direction)) : 1.0;
+  }
 };
 
-/// Appends the stars that no card hides and that are not behind the Moon.
+/// Appends the stars that neither a card nor the ground hides and that are not behind the Moon.
 void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
                const std::optional<Moon>& moon, std::span<const CardView> cards, SpotList& list);
 
-/// Appends the Moon's disc, unless a card hides its centre.
+/// Appends the Moon's disc, unless a card or the ground hides its centre.
 void add_moon(const CameraView& camera, const SkyView& view, const Moon& moon,
               std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list);
 

@@ -178,6 +178,11 @@ std::string scenario_json(const Scenario& scenario, std::span<const std::string>
                     {"diameter_deg", scenario.moon->diameter * 180.0 / std::numbers::pi},
                     {"magnitude", scenario.moon->magnitude}};
   }
+  if (scenario.ground) {
+    json["ground"] = {{"up_rig", xyz(scenario.ground->up)},
+                      {"skyline_deg", scenario.ground->skyline * 180.0 / std::numbers::pi},
+                      {"extinction_mag", scenario.ground->extinction}};
+  }
   return json.dump(2) + "\n";
 }
 

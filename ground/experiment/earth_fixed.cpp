@@ -14,6 +14,7 @@ StationaryRig stationary_rig(const std::vector<TimedAttitude>& attitudes) {
   StationaryRig rig;
   // A rig fixed to the Earth: j2000_from_rig(t) = turn(ω t about the pole) · j2000_from_rig(0).
   std::vector<Eigen::Quaterniond> at_start;
+  at_start.reserve(attitudes.size());
   for (const TimedAttitude& a : attitudes)
     at_start.push_back(a.rig_from_j2000 * rotation_exp({0, 0, kEarthRate * a.time}));
   rig.rig_from_j2000 = at_start.front();

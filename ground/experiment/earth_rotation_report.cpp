@@ -136,6 +136,7 @@ std::string error_charts(const EarthRotationResult& r) {
   std::string charts;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<ErrorPoint> points;
+    points.reserve(r.run.evaluation.attitude.points.size());
     for (const AttitudeError& p : r.run.evaluation.attitude.points)
       points.push_back({p.time, p.error[axis] / kArcsec, p.sigma[axis] / kArcsec});
     charts +=

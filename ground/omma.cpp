@@ -8,6 +8,7 @@
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
 #include "ground/design/design.hpp"
+#include "ground/dots/dots.hpp"
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
 #include "ground/monitor/monitor.hpp"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   omma::ground::add_design(app, context);
   omma::ground::add_experiment(app, context);
   omma::ground::add_stars(app, context);
+  omma::ground::add_dots(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "components/extractor/clones.hpp"
+#include "components/extractor/index.hpp"
 #include "components/extractor/lanes.hpp"
 
 namespace omma {
@@ -184,7 +185,7 @@ void BackgroundMap::measure_cells(const ImageView& image, bool dark_dots) noexce
       gather(image, column * kCell, row * kCell, dark_dots, samples);
       const CellStatistics cell = cell_statistics(samples, sizeof(Pixel) == 1 ? 255 : 65535, guess);
       guess = cell.bin;
-      const auto i = static_cast<std::size_t>(row * columns_ + column);
+      const auto i = index_of(row, column, columns_);
       raw_level_[i] = cell.level;
       raw_noise_[i] = cell.noise;
     }
@@ -219,7 +220,7 @@ void BackgroundMap::smooth(const std::vector<float>& raw, std::vector<float>& ou
   for (int row = 0; row < rows_; ++row) {
     for (int k = -1; k <= 1; ++k) {
       const float* from = &raw[static_cast<std::size_t>(std::clamp(row + k, 0, rows_ - 1)) * columns];
-      float* to = padded[static_cast<std::size_t>(k + 1)];
+      float* to = padded[index_of(k + 1)];
       to[0] = from[0];
       std::copy_n(from, columns, to + 1);
       std::fill_n(to + 1 + columns, kLanes + 1, from[columns - 1]);
@@ -244,7 +245,7 @@ float BackgroundMap::interpolate(const std::vector<float>& map, float u, float v
   const int below = std::min(row + 1, rows_ - 1);
   const float fx = x - static_cast<float>(column);
   const float fy = y - static_cast<float>(row);
-  const auto at = [&](int r, int c) { return map[static_cast<std::size_t>(r * columns_ + c)]; };
+  const auto at = [&](int r, int c) { return map[index_of(r, c, columns_)]; };
   const float top = at(row, column) + fx * (at(row, right) - at(row, column));
   const float bottom = at(below, column) + fx * (at(below, right) - at(below, column));
   return top + fy * (bottom - top);

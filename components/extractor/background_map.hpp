@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "components/extractor/index.hpp"
 #include "hal/image.hpp"
 
 namespace omma {
@@ -24,8 +25,8 @@ class BackgroundMap {
 
   int columns() const { return columns_; }  ///< cells
   int rows() const { return rows_; }        ///< cells
-  const float* level_row(int row) const { return &level_[static_cast<std::size_t>(row * columns_)]; }
-  const float* noise_row(int row) const { return &noise_[static_cast<std::size_t>(row * columns_)]; }
+  const float* level_row(int row) const { return &level_[index_of(row, 0, columns_)]; }
+  const float* noise_row(int row) const { return &noise_[index_of(row, 0, columns_)]; }
 
   /// Background and standard deviation of one pixel at (u, v), bilinear between cell centres [grey levels].
   float level(float u, float v) const noexcept { return interpolate(level_, u, v); }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "components/extractor/index.hpp"
+
 namespace omma {
 
 void Blob::merge(const Blob& other) {
@@ -24,7 +26,7 @@ void Blob::merge(const Blob& other) {
 
 BlobFinder::BlobFinder(int width) {
   // A row has at most (width + 1) / 2 runs; nodes live while a run of this row or the one above names them.
-  const auto runs = static_cast<std::size_t>(width / 2 + 2);
+  const auto runs = index_of(width / 2 + 2);
   previous_.reserve(runs);
   current_.reserve(runs);
   nodes_.resize(2 * runs);

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "components/extractor/clones.hpp"
+#include "components/extractor/index.hpp"
 
 namespace omma {
 namespace {
@@ -119,7 +120,7 @@ DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_
   const std::size_t cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
                             static_cast<std::size_t>((height + kCell - 1) / kCell);
   threshold_.resize(cells);
-  row_threshold_.resize(static_cast<std::size_t>((width + kCell - 1) / kCell + 4));
+  row_threshold_.resize(index_of((width + kCell - 1) / kCell + 4));
 }
 
 float DetectionFilter::threshold_of(int row, int column) const noexcept {
@@ -177,7 +178,7 @@ void DetectionFilter::average_row(int v, std::uint8_t* out) noexcept {
 }
 
 bool DetectionFilter::row(int v) noexcept {
-  average_row(v + 1, across_[static_cast<std::size_t>((v + 1) % 3)].data());
+  average_row(v + 1, across_[index_of((v + 1) % 3)].data());
   const int offset = v - kCell / 2;
   const int band = offset < 0 ? -1 : offset / kCell;
   const int count = words();
@@ -199,8 +200,8 @@ bool DetectionFilter::row(int v) noexcept {
     word_limit_[static_cast<std::size_t>(k)] = *std::min_element(first, first + kStripsOfWord);
   }
   average_down(across_[static_cast<std::size_t>((v - 1) % 3)].data(),
-               across_[static_cast<std::size_t>(v % 3)].data(),
-               across_[static_cast<std::size_t>((v + 1) % 3)].data(), width_, averaged_.data());
+               across_[static_cast<std::size_t>(v % 3)].data(), across_[index_of((v + 1) % 3)].data(), width_,
+               averaged_.data());
   find_over(averaged_.data(), word_limit_.data(), count, over_.data());
   bool any = false;
   bool prepared = false;
@@ -212,8 +213,7 @@ bool DetectionFilter::row(int v) noexcept {
     prepared = true;
     for (int i = 0; i < kStripsOfWord; ++i) {
       const int strip = k * kStripsOfWord + i;
-      if (strip_over(&averaged_[static_cast<std::size_t>(strip * kStrip)],
-                     limit_[static_cast<std::size_t>(strip)]))
+      if (strip_over(&averaged_[index_of(strip, 0, kStrip)], limit_[static_cast<std::size_t>(strip)]))
         word |= exact(v, strip) << (i * kStrip);
     }
     any = any || word != 0;
@@ -228,14 +228,14 @@ void DetectionFilter::prepare_row(int v) noexcept {
   const float down = y - static_cast<float>(row);
   for (int column = -1; column <= columns_; ++column) {
     const float top = threshold_of(row, column);
-    row_threshold_[static_cast<std::size_t>(column + 1)] = top + down * (threshold_of(row + 1, column) - top);
+    row_threshold_[index_of(column + 1)] = top + down * (threshold_of(row + 1, column) - top);
   }
 }
 
 // The threshold is bilinear between the cells' centres, which lie between two strips.
 std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
   static_assert(kCell == 2 * kStrip);
-  const float* middle = &row_threshold_[static_cast<std::size_t>(left_cell(strip) + 1)];
+  const float* middle = &row_threshold_[index_of(left_cell(strip) + 1)];
   const float slope = (middle[1] - middle[0]) / kCell;
   const float start = middle[0] + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
   const int turn = invert_ ? kFilterSum * image_->white_level : 0;

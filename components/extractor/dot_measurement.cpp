@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/extractor/disc_centroid.hpp"
+#include "components/extractor/index.hpp"
 
 namespace omma {
 namespace {
@@ -149,7 +150,7 @@ bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
   const int y = static_cast<int>(std::lround(fit_.v)) - window_.top;
   if (x < 1 || y < 1 || x > window_.width - 2 || y > window_.height - 2) return false;
   const auto at = [&](int row, int column) {
-    return static_cast<double>(window_.light[static_cast<std::size_t>(row * kSpotSide + column)]);
+    return static_cast<double>(window_.light[index_of(row, column, kSpotSide)]);
   };
   const double around = at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
   constexpr double kSure = 3;

@@ -11,14 +11,12 @@ namespace {
 constexpr int kFull = 65535;
 
 OMMA_CLONES void halve(const std::uint8_t* above, const std::uint8_t* below, int n, std::uint16_t* out) {
-  for (int i = 0; i < n; ++i)
-    out[i] = static_cast<std::uint16_t>(above[2 * i] + above[2 * i + 1] + below[2 * i] + below[2 * i + 1]);
+  for (int i = 0; i < n; ++i, above += 2, below += 2)
+    out[i] = static_cast<std::uint16_t>(above[0] + above[1] + below[0] + below[1]);
 }
 OMMA_CLONES void halve(const std::uint16_t* above, const std::uint16_t* below, int n, std::uint16_t* out) {
-  for (int i = 0; i < n; ++i) {
-    const int sum = above[2 * i] + above[2 * i + 1] + below[2 * i] + below[2 * i + 1];
-    out[i] = static_cast<std::uint16_t>(std::min(sum, kFull));
-  }
+  for (int i = 0; i < n; ++i, above += 2, below += 2)
+    out[i] = static_cast<std::uint16_t>(std::min(above[0] + above[1] + below[0] + below[1], kFull));
 }
 
 }  // namespace

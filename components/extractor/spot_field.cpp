@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/extractor/index.hpp"
+
 namespace omma {
 namespace {
 
@@ -32,7 +34,7 @@ void SpotField::clear() noexcept {
 std::size_t SpotField::add(const FieldSpot& spot) noexcept {
   const int column = std::clamp(static_cast<int>(spot.u) / kCell, 0, columns_ - 1);
   const int row = std::clamp(static_cast<int>(spot.v) / kCell, 0, rows_ - 1);
-  int& head = first_[static_cast<std::size_t>(row * columns_ + column)];
+  int& head = first_[index_of(row, column, columns_)];
   spots_.push_back(spot);
   spots_.back().next = head;
   head = static_cast<int>(spots_.size()) - 1;
@@ -45,8 +47,7 @@ void SpotField::for_near(float u, float v, float distance, Visit&& visit) const 
   const auto cell = [](float x) { return static_cast<int>(std::max(0.0F, x)) / kCell; };
   for (int r = cell(v - distance); r <= std::min(rows_ - 1, cell(v + distance)); ++r) {
     for (int c = cell(u - distance); c <= std::min(columns_ - 1, cell(u + distance)); ++c) {
-      for (int i = first_[static_cast<std::size_t>(r * columns_ + c)]; i >= 0;
-           i = spots_[static_cast<std::size_t>(i)].next) {
+      for (int i = first_[index_of(r, c, columns_)]; i >= 0; i = spots_[static_cast<std::size_t>(i)].next) {
         const FieldSpot& spot = spots_[static_cast<std::size_t>(i)];
         if (spot.flux > 0) visit(static_cast<std::size_t>(i), spot);
       }
@@ -92,7 +93,7 @@ bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) con
         const float there = row * along_u.share[static_cast<std::size_t>(x)];
         if (there < least) continue;
         any = true;
-        const auto k = static_cast<std::size_t>(y * kSpotSide + x);
+        const auto k = index_of(y, x, kSpotSide);
         window.light[k] -= there;
         window.weight[k] /= 1 + per_variance * there * there;
       }

@@ -10,6 +10,7 @@ int bench_identify(int argc, char** argv);
 int bench_lens(int argc, char** argv);
 int bench_jitter(int argc, char** argv);
 int bench_photographs(int argc, char** argv);
+int bench_pipelines(int argc, char** argv);
 int bench_ports(int argc, char** argv);
 int bench_pose(int argc, char** argv);
 int bench_steps(int argc, char** argv);

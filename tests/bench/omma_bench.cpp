@@ -22,6 +22,8 @@ constexpr Bench kBenches[] = {
     {"jitter", omma::bench_jitter, "lateness of steps against a bare clock_nanosleep loop in the same run"},
     {"photographs", omma::bench_photographs,
      "omma solve on photographs others took and solved: solved, wrong, error, stars, time"},
+    {"pipelines", omma::bench_pipelines,
+     "the extractor beside the classical pipelines on rendered frames: found, missed, false, time"},
     {"ports", omma::bench_ports, "moving a message within and between rate groups"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},

@@ -16,6 +16,7 @@ constexpr int kStrip = 16;  // pixels looked at together; the threshold is linea
 constexpr int kStripsOfWord = DetectionFilter::kWord / kStrip;
 constexpr float kFinest = 8;  // noise in the quick pass's units, if the image's range allows
 constexpr float kFullRange = 250;
+constexpr std::uint8_t kFull = 252;
 
 // The cell whose centre is left of a strip, or at its left end.
 constexpr int left_cell(int strip) {
@@ -27,7 +28,7 @@ inline std::uint8_t average(std::uint8_t a, std::uint8_t b) {
   return static_cast<std::uint8_t>((a + b + 1) >> 1);
 }
 
-// Full, at least 252, where it does not fit.
+// Full, kFull at least, where it does not fit.
 OMMA_CLONES void narrow_8(const std::uint8_t* x, int n, std::uint8_t flip, std::uint8_t pedestal,
                           int exponent, std::uint8_t* out) {
   const auto most = static_cast<std::uint8_t>(255 >> exponent);
@@ -117,6 +118,8 @@ DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_
   narrow_.resize(row_length_);
   averaged_.resize(row_length_);
   for (auto& row : across_) row.resize(row_length_);
+  for (auto& row : full_) row.resize(count);
+  full_limit_.resize(count, kFull - 1);
   const std::size_t cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
                             static_cast<std::size_t>((height + kCell - 1) / kCell);
   threshold_.resize(cells);
@@ -144,8 +147,8 @@ void DetectionFilter::start(const ImageView& image, bool invert, const Backgroun
   }
   choose_scale(background);
   band_ = -2;
-  average_row(0, across_[0].data());
-  average_row(1, across_[1].data());
+  average_row(0);
+  average_row(1);
 }
 
 // The finest steps with which the thresholds of the whole image still fit into 8 bits.
@@ -166,7 +169,8 @@ void DetectionFilter::choose_scale(const BackgroundMap& background) noexcept {
   exponent_ = std::max(exponent_, least);
 }
 
-void DetectionFilter::average_row(int v, std::uint8_t* out) noexcept {
+void DetectionFilter::average_row(int v) noexcept {
+  const std::size_t slot = index_of(v % 3);
   if (image_->format == PixelFormat::kGrey8) {
     narrow_8(image_->row<std::uint8_t>(v), width_, invert_ ? 0xFF : 0, static_cast<std::uint8_t>(pedestal_),
              exponent_, narrow_.data());
@@ -174,11 +178,15 @@ void DetectionFilter::average_row(int v, std::uint8_t* out) noexcept {
     narrow_16(image_->row<std::uint16_t>(v), width_, image_->white_level, invert_,
               static_cast<std::uint16_t>(pedestal_), exponent_, narrow_.data());
   }
-  average_across(narrow_.data(), width_, out);
+  average_across(narrow_.data(), width_, across_[slot].data());
+  find_over(narrow_.data(), full_limit_.data(), words(), full_[slot].data());
+  any_full_[slot] =
+      std::any_of(full_[slot].begin(), full_[slot].end(), [](std::uint8_t x) { return x != 0; });
 }
 
 bool DetectionFilter::row(int v) noexcept {
-  average_row(v + 1, across_[index_of((v + 1) % 3)].data());
+  average_row(v + 1);
+  const bool full = any_full_[0] || any_full_[1] || any_full_[2];
   const int offset = v - kCell / 2;
   const int band = offset < 0 ? -1 : offset / kCell;
   const int count = words();
@@ -208,17 +216,26 @@ bool DetectionFilter::row(int v) noexcept {
   for (int k = 0; k < count; ++k) {
     std::uint64_t& word = words_[static_cast<std::size_t>(k)];
     word = 0;
-    if (over_[static_cast<std::size_t>(k)] == 0) continue;
+    const bool all = full && near_full(k);
+    if (over_[static_cast<std::size_t>(k)] == 0 && !all) continue;
     if (!prepared) prepare_row(v);
     prepared = true;
     for (int i = 0; i < kStripsOfWord; ++i) {
       const int strip = k * kStripsOfWord + i;
-      if (strip_over(&averaged_[index_of(strip, 0, kStrip)], limit_[static_cast<std::size_t>(strip)]))
+      if (all || strip_over(&averaged_[index_of(strip, 0, kStrip)], limit_[static_cast<std::size_t>(strip)]))
         word |= exact(v, strip) << (i * kStrip);
     }
     any = any || word != 0;
   }
   return any;
+}
+
+// A pixel that does not fit is brighter than its average shows: words it may reach are computed exactly.
+bool DetectionFilter::near_full(int k) const noexcept {
+  for (const auto& row : full_)
+    for (int i = std::max(0, k - 1); i <= std::min(words() - 1, k + 1); ++i)
+      if (row[index_of(i)] != 0) return true;
+  return false;
 }
 
 // The threshold along the middle of row v, at the cells' centres and one beyond on each side.
@@ -240,6 +257,7 @@ std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
   const float start = middle[0] + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
   const int turn = invert_ ? kFilterSum * image_->white_level : 0;
   const int first = strip * kStrip;
+  if (first >= width_ - 1) return 0;
   const auto bits = [&]<class Pixel>(Pixel /*type*/) -> std::uint64_t {
     const Pixel* rows[3] = {image_->row<Pixel>(v - 1), image_->row<Pixel>(v), image_->row<Pixel>(v + 1)};
     if (first > 0 && first + kStrip < width_)

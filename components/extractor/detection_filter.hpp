@@ -36,7 +36,8 @@ class DetectionFilter {
 
  private:
   void choose_scale(const BackgroundMap& background) noexcept;
-  void average_row(int v, std::uint8_t* out) noexcept;
+  void average_row(int v) noexcept;
+  bool near_full(int k) const noexcept;
   void prepare_row(int v) noexcept;
   std::uint64_t exact(int v, int strip) const noexcept;
   float threshold_of(int row, int column) const noexcept;
@@ -56,6 +57,9 @@ class DetectionFilter {
   int band_ = -2;
   std::vector<std::uint8_t> narrow_, averaged_;
   std::array<std::vector<std::uint8_t>, 3> across_;  // rows v−1, v, v+1, in turn
+  std::array<std::vector<std::uint8_t>, 3> full_;    // of the same rows: words with a pixel that does not fit
+  std::array<bool, 3> any_full_{};
+  std::vector<std::uint8_t> full_limit_;
   std::vector<std::uint64_t> words_;
 };
 

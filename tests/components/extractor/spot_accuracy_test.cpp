@@ -15,6 +15,10 @@ struct Case {
   int white_level;
 };
 
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << "sigma " << c.sigma << ", SNR " << c.snr << ", white " << c.white_level;
+}
+
 class SpotAccuracy : public testing::TestWithParam<Case> {};
 
 SpotScore score_of(const Case& c, int images, bool dark = false) {

@@ -8,8 +8,8 @@ namespace omma::sim {
 
 SceneInstant scene_at(const Scenario& scenario, double time) {
   SceneInstant instant;
-  instant.rig_from_j2000 = scenario.rig_motion.at(time).rotation.conjugate();
-  instant.rig_rate = scenario.rig_motion.rate(time);
+  instant.rig_from_j2000 = scenario.rig_turn * scenario.rig_motion.at(time).rotation.conjugate();
+  instant.rig_rate = scenario.rig_turn * scenario.rig_motion.rate(time);
   const Pose rig_from_j2000{instant.rig_from_j2000, Eigen::Vector3d::Zero()};
   instant.rig_from_body.reserve(scenario.cards.size());
   for (const Card& card : scenario.cards) {

@@ -56,6 +56,8 @@ struct Scenario {
   double faintest = 6.5;         ///< V of the faintest star drawn
   double truth_minimum_snr = 3;  ///< spots below this are drawn but not told
   Motion rig_motion;             ///< j2000_from_rig, rotation only
+  /// The rig stands turned from its motion by this: a gimbal's lash, another in each trial (rig axes).
+  Eigen::Quaterniond rig_turn = Eigen::Quaterniond::Identity();
   std::vector<Card> cards;
   std::optional<Moon> moon;
   std::optional<Ground> ground;  ///< none in orbit

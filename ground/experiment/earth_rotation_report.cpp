@@ -111,6 +111,7 @@ namespace {
 std::string comparison_table(const EarthRotationResult& r) {
   const AttitudeEvaluation& a = r.run.evaluation.attitude;
   std::vector<std::vector<std::string>> rows;
+  rows.reserve(6);
   for (int axis = 0; axis < 3; ++axis) {
     rows.push_back({std::string("against the truth, about rig ") + kAxis[axis],
                     format("%.2f&Prime;", a.rms[axis] / kArcsec),

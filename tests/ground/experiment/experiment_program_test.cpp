@@ -34,6 +34,50 @@ TEST(EarthRotation, IsAtTheBoundAndFarBelowTheDissertation) {
   EXPECT_TRUE(std::filesystem::exists(folder / "run/frames/truth.jsonl"));
 }
 
+const std::string kDocking =
+    " --scenario " + kConfig + "docking_scenario.toml --mission " + kConfig + "docking.toml";
+
+TEST(OrientationDockingImaging, FindsAttitudeAndPoseAtTheBoundAndMakesThePanorama) {
+  const OperatorsFolder folder;
+  const Told told =
+      folder.omma("experiment orientation-docking-imaging" + kDocking + " --frames 20 --output run");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto json = nlohmann::json::parse(folder.read("run/docking.json"));
+  EXPECT_EQ(json["pose"]["solved"], 20);
+  EXPECT_EQ(json["attitude"]["solved"], 20);
+  EXPECT_EQ(json["pairings"]["wrong"], 0);
+  EXPECT_NEAR(json["pose"]["range_m"].get<double>(), 49 * 0.0254, 0.01);
+  EXPECT_LT(json["pose"]["position_over_bound"].get<double>(), 1.6);      // 20 frame sets, one long axis
+  EXPECT_LT(json["pose"]["position_rms_of_range"].get<double>(), 0.001);  // the dissertation has 0.018
+  EXPECT_LT(json["pose"]["rotation_over_bound"].get<double>(), 1.5);
+  EXPECT_THAT(folder.read("run/docking.html"), HasSubstr("Beside the dissertation"));
+}
+
+TEST(Repetition, StandsElsewhereInEachTrial) {
+  const OperatorsFolder folder;
+  const Told told = folder.omma("experiment repetition" + kDocking + " --frames 8 --trials 2 --output run");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto json = nlohmann::json::parse(folder.read("run/repetition.json"));
+  ASSERT_EQ(json["trials"].size(), 2U);
+  EXPECT_EQ(json["trials"][1]["solved"], 8);
+  EXPECT_NE(json["trials"][0]["bound_rms"], json["trials"][1]["bound_rms"]);
+  EXPECT_THAT(folder.read("run/repetition.html"), HasSubstr("Position error of all trials"));
+}
+
+TEST(Docking, RefusesAScenarioWithoutACardAndAMissionWithoutABody) {
+  const OperatorsFolder folder;
+  const Told no_card = folder.omma("experiment repetition" + kFiles + " --frames 3 --output run");
+  EXPECT_EQ(no_card.exit_code, 2);
+  EXPECT_THAT(no_card.err,
+              HasSubstr("earth_rotation_scenario.toml: card: expected at least one [[card]], found none"));
+  const Told no_body = folder.omma("experiment orientation-docking-imaging --scenario " + kConfig +
+                                   "docking_scenario.toml --mission " + kConfig +
+                                   "earth_rotation.toml --frames 3 --output run");
+  EXPECT_EQ(no_body.exit_code, 2);
+  EXPECT_THAT(no_body.err, HasSubstr("body: expected at least one body"));
+  EXPECT_EQ(folder.omma("experiment repetition" + kDocking + " --trials 1 --output run").exit_code, 2);
+}
+
 TEST(EarthRotation, RefusesWhatMakesNoSense) {
   const OperatorsFolder folder;
   EXPECT_EQ(folder.omma("experiment").exit_code, 2);

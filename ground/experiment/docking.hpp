@@ -1,0 +1,45 @@
+// What the docking experiments found: orientation, docking and imaging at once (one run), and the repetition
+// of one run many times. Text, JSON and pages.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ground/experiment/chain.hpp"
+#include "ground/experiment/rig_pictures.hpp"
+
+namespace omma::ground {
+
+/// The figures of one run that are compared.
+struct DockingTrial {
+  AttitudeEvaluation attitude;
+  PoseEvaluation pose;  ///< of the mission's first body
+  PairCheck pairs;
+  double duration = 0;  ///< [s]
+};
+
+/// @throws InputError where the mission has no body or its pose was never found
+DockingTrial docking_trial(const ChainRun& run);
+
+/// Root mean square of each trial and how it spreads over trials, per axis: rotation x y z [rad], position x
+/// y z [m].
+struct TrialSpread {
+  std::vector<Vector6d> rms;  ///< of each trial
+  Vector6d mean = Vector6d::Zero();
+  Vector6d deviation = Vector6d::Zero();           ///< between trials
+  Vector6d bound = Vector6d::Zero();               ///< rms of the bound over all trials
+  Vector6d expected_deviation = Vector6d::Zero();  ///< that chance makes: rms / √(2 n), n frame sets a trial
+};
+TrialSpread trial_spread(const std::vector<DockingTrial>& trials);
+
+std::string docking_text(const DockingTrial& trial);
+std::string docking_json(const DockingTrial& trial);
+/// @param panorama  PNG of the whole sky made on board; empty: none
+std::string docking_page(const DockingTrial& trial, const std::vector<RigPicture>& pictures,
+                         const std::vector<std::uint8_t>& panorama);
+
+std::string repetition_text(const std::vector<DockingTrial>& trials);
+std::string repetition_json(const std::vector<DockingTrial>& trials);
+std::string repetition_page(const std::vector<DockingTrial>& trials);
+
+}  // namespace omma::ground

@@ -1,0 +1,191 @@
+#include <array>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "fsw/kernel/input_error.hpp"
+#include "ground/experiment/docking.hpp"
+#include "ground/page/page.hpp"
+#include "ground/report/svg_chart.hpp"
+
+namespace omma::ground {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kArcsec = kDegree / 3600;
+constexpr double kInch = 0.0254;
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+// Miller §13.2 and §13.4: the worst case, a card at the fringe of the lens, 49 inches away.
+constexpr std::array<double, 3> kDissertationInches{0.302, 0.563, 0.615};
+constexpr std::array<double, 3> kDissertationDegrees{3.95, 1.37, 1.22};
+constexpr double kDissertationPart = 0.018;    // of the range
+constexpr double kDissertationAttitude = 0.1;  // moving, against the truth [degrees]
+
+double ratio(double rms, double bound) {
+  return bound > 0 ? rms / bound : 0;
+}
+
+std::vector<std::vector<std::string>> table_rows(const DockingTrial& t) {
+  std::vector<std::vector<std::string>> rows;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    rows.push_back({std::string("position along rig ") + kAxes[i],
+                    format("%.3f mm", 1e3 * t.pose.rms[3 + axis]),
+                    format("%.3f mm", 1e3 * t.pose.bound_rms[3 + axis]),
+                    format("%.3f", ratio(t.pose.rms[3 + axis], t.pose.bound_rms[3 + axis])),
+                    format("%.1f mm", 1e3 * kInch * kDissertationInches[i])});
+  }
+  rows.push_back({"position, part of the range", format("%.3f %%", 100 * t.pose.position_part.rms),
+                  format("%.3f %%", 100 * t.pose.position_part.bound),
+                  format("%.3f", t.pose.position_part.ratio()), format("%.1f %%", 100 * kDissertationPart)});
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    rows.push_back({std::string("rotation about rig ") + kAxes[i],
+                    format("%.3f&deg;", t.pose.rms[axis] / kDegree),
+                    format("%.3f&deg;", t.pose.bound_rms[axis] / kDegree),
+                    format("%.3f", ratio(t.pose.rms[axis], t.pose.bound_rms[axis])),
+                    format("%.2f&deg;", kDissertationDegrees[i])});
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    rows.push_back({std::string("attitude about rig ") + kAxes[static_cast<std::size_t>(axis)],
+                    format("%.1f&Prime;", t.attitude.rms[axis] / kArcsec),
+                    format("%.1f&Prime;", t.attitude.bound_rms[axis] / kArcsec),
+                    format("%.3f", ratio(t.attitude.rms[axis], t.attitude.bound_rms[axis])),
+                    format("about %.0f&Prime;", kDissertationAttitude * 3600)});
+  }
+  return rows;
+}
+
+std::string charts(const DockingTrial& t) {
+  std::string html;
+  for (int axis = 0; axis < 6; ++axis) {
+    const bool turn = axis < 3;
+    const double unit = turn ? kDegree : 1e-3;
+    std::vector<ErrorPoint> points;
+    points.reserve(t.pose.points.size());
+    for (const PoseError& p : t.pose.points)
+      points.push_back({p.time, p.error[axis] / unit, p.sigma[axis] / unit});
+    html += error_chart(std::string(turn ? "Rotation about rig " : "Position along rig ") +
+                            kAxes[static_cast<std::size_t>(axis % 3)],
+                        turn ? "degrees" : "mm", points, t.duration);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<ErrorPoint> points;
+    points.reserve(t.attitude.points.size());
+    for (const AttitudeError& p : t.attitude.points)
+      points.push_back({p.time, p.error[axis] / kArcsec, p.sigma[axis] / kArcsec});
+    html += error_chart(std::string("Attitude about rig ") + kAxes[static_cast<std::size_t>(axis)], "arcsec",
+                        points, t.duration);
+  }
+  return "<div class='charts'>" + html + "</div>";
+}
+
+}  // namespace
+
+DockingTrial docking_trial(const ChainRun& run) {
+  if (run.evaluation.poses.empty())
+    throw InputError("mission", 0, "body", "at least one body, whose pose is looked for", "none");
+  DockingTrial trial{run.evaluation.attitude, run.evaluation.poses.front(), run.evaluation.pairs,
+                     run.evaluation.duration};
+  if (trial.pose.points.empty())
+    throw InputError("flight.mcap", 0, trial.pose.body, "at least one pose", "none found");
+  return trial;
+}
+
+std::string docking_text(const DockingTrial& t) {
+  std::string text = format("%s       pose in %zu of %zu frame sets, range %.2f m; attitude in %zu of %zu\n",
+                            t.pose.body.c_str(), t.pose.points.size(), t.pose.frames, t.pose.first_range,
+                            t.attitude.points.size(), t.attitude.frames);
+  text += "                      rms      bound   rms/bound   dissertation\n";
+  for (int axis = 0; axis < 3; ++axis) {
+    text += format("position %s [mm] %10.3f %10.3f %10.3f %12.1f\n", kAxes[static_cast<std::size_t>(axis)],
+                   1e3 * t.pose.rms[3 + axis], 1e3 * t.pose.bound_rms[3 + axis],
+                   ratio(t.pose.rms[3 + axis], t.pose.bound_rms[3 + axis]),
+                   1e3 * kInch * kDissertationInches[static_cast<std::size_t>(axis)]);
+  }
+  text += format("  of range [%%]  %10.4f %10.4f %10.3f %12.1f\n", 100 * t.pose.position_part.rms,
+                 100 * t.pose.position_part.bound, t.pose.position_part.ratio(), 100 * kDissertationPart);
+  for (int axis = 0; axis < 3; ++axis) {
+    text += format("rotation %s [deg]%10.4f %10.4f %10.3f %12.2f\n", kAxes[static_cast<std::size_t>(axis)],
+                   t.pose.rms[axis] / kDegree, t.pose.bound_rms[axis] / kDegree,
+                   ratio(t.pose.rms[axis], t.pose.bound_rms[axis]),
+                   kDissertationDegrees[static_cast<std::size_t>(axis)]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    text += format("attitude %s [\"]  %10.2f %10.2f %10.3f %12.0f\n", kAxes[static_cast<std::size_t>(axis)],
+                   t.attitude.rms[axis] / kArcsec, t.attitude.bound_rms[axis] / kArcsec,
+                   ratio(t.attitude.rms[axis], t.attitude.bound_rms[axis]), kDissertationAttitude * 3600);
+  }
+  text += format("NEES             pose %.2f of 6 (%.2f to %.2f), attitude %.2f of 3 (%.2f to %.2f)\n",
+                 t.pose.nees.mean, t.pose.nees.low, t.pose.nees.high, t.attitude.nees.mean,
+                 t.attitude.nees.low, t.attitude.nees.high);
+  return text + format("pairings         %zu right, %zu wrong, %zu too faint to judge\n", t.pairs.right,
+                       t.pairs.wrong, t.pairs.unknown);
+}
+
+std::string docking_json(const DockingTrial& t) {
+  const auto three = [](const auto& v, int first, double unit) {
+    return std::vector<double>{v[first] / unit, v[first + 1] / unit, v[first + 2] / unit};
+  };
+  nlohmann::ordered_json json{{"experiment", "orientation-docking-imaging"}, {"duration_s", t.duration}};
+  json["pose"] = {
+      {"frames", t.pose.frames},
+      {"solved", t.pose.points.size()},
+      {"range_m", t.pose.first_range},
+      {"position_rms_mm", three(t.pose.rms, 3, 1e-3)},
+      {"position_bound_mm", three(t.pose.bound_rms, 3, 1e-3)},
+      {"position_rms_of_range", t.pose.position_part.rms},
+      {"position_over_bound", t.pose.position_part.ratio()},
+      {"rotation_rms_deg", three(t.pose.rms, 0, kDegree)},
+      {"rotation_bound_deg", three(t.pose.bound_rms, 0, kDegree)},
+      {"rotation_over_bound", t.pose.rotation.ratio()},
+      {"nees", {{"mean", t.pose.nees.mean}, {"low", t.pose.nees.low}, {"high", t.pose.nees.high}}}};
+  json["attitude"] = {
+      {"frames", t.attitude.frames},
+      {"solved", t.attitude.points.size()},
+      {"rms_arcsec", three(t.attitude.rms, 0, kArcsec)},
+      {"bound_rms_arcsec", three(t.attitude.bound_rms, 0, kArcsec)},
+      {"nees",
+       {{"mean", t.attitude.nees.mean}, {"low", t.attitude.nees.low}, {"high", t.attitude.nees.high}}}};
+  json["pairings"] = {{"right", t.pairs.right}, {"wrong", t.pairs.wrong}, {"unknown", t.pairs.unknown}};
+  json["dissertation"] = {{"position_rms_in", kDissertationInches},
+                          {"position_rms_of_range", kDissertationPart},
+                          {"rotation_rms_deg", kDissertationDegrees}};
+  return json.dump(2) + "\n";
+}
+
+std::string docking_page(const DockingTrial& t, const std::vector<RigPicture>& pictures,
+                         const std::vector<std::uint8_t>& panorama) {
+  std::string html =
+      page_head("Omma: orientation, docking and imaging", "Orientation, docking and imaging at once",
+                format("%.0f s on the gimbal: attitude from the stars, pose of a card %.2f m away at the "
+                       "lens's fringe, and the "
+                       "whole sky, from the same %zu frame sets.",
+                       t.duration, t.pose.first_range, t.attitude.frames));
+  html += figures_row(
+      figure(format("%.3f %%", 100 * t.pose.position_part.rms),
+             format("position rms, of the range: %.2f times the bound; the dissertation has %.1f %%",
+                    t.pose.position_part.ratio(), 100 * kDissertationPart)) +
+      figure(format("%.2f&deg;", t.pose.rotation.rms / kDegree),
+             format("rotation rms of three axes: %.2f times the bound; the dissertation has 3.95, 1.37 and "
+                    "1.22&deg;",
+                    t.pose.rotation.ratio())) +
+      figure(format("%.0f&Prime;", t.attitude.rms.norm() / kArcsec),
+             "attitude rms of three axes; the dissertation has about 360&Prime;") +
+      figure(format("%zu", t.pairs.wrong), format("wrong pairings of %zu", t.pairs.right + t.pairs.wrong)));
+  html += "<h2>Beside the dissertation</h2>" +
+          table({"error", "rms here", "bound", "rms / bound", "dissertation"}, table_rows(t));
+  html += "<h2>Errors, with the estimate's own 3-sigma envelope</h2>" + charts(t) + "<h2>Imagery</h2>";
+  if (!panorama.empty())
+    html += picture(panorama,
+                    "The whole sky in J2000, made on board from all cameras. The names stand where the "
+                    "catalogue has the bright stars, below the skyline too.");
+  for (const RigPicture& one : pictures)
+    html += picture(one.png,
+                    one.camera + ": stars used green, targets blue, pairs culled red, unpaired dots grey.");
+  return html +
+         "<p class='note'>Frames are rendered. Errors are true minus estimated in the rig frame; the "
+         "dissertation's are in the frame of its card.</p>" +
+         page_end();
+}
+
+}  // namespace omma::ground

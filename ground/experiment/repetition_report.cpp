@@ -25,6 +25,7 @@ const char* unit_name(int axis) {
 
 std::vector<double> in_units(const Vector6d& v) {
   std::vector<double> values;
+  values.reserve(6);
   for (int axis = 0; axis < 6; ++axis) values.push_back(v[axis] / unit(axis));
   return values;
 }
@@ -43,6 +44,7 @@ std::string density_scatter(const std::vector<DockingTrial>& trials, int first, 
   XySeries dense{"dense", "a", Mark::kPoints, {}};
   const double radius = spread / 12;
   std::vector<int> neighbours;
+  neighbours.reserve(points.size());
   for (const Eigen::Vector2d& p : points) {
     neighbours.push_back(static_cast<int>(std::count_if(
         points.begin(), points.end(), [&](const Eigen::Vector2d& q) { return (p - q).norm() < radius; })));

@@ -1,3 +1,4 @@
+// Figures, text, JSON and page of orientation, docking and imaging at once.
 #include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>

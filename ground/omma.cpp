@@ -5,6 +5,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/calibrate/calibrate.hpp"
+#include "ground/card/card.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
 #include "ground/design/design.hpp"
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
   omma::ground::add_calibrate(app, context);
+  omma::ground::add_card(app, context);
   omma::ground::add_design(app, context);
   omma::ground::add_experiment(app, context);
   omma::ground::add_stars(app, context);

@@ -98,10 +98,15 @@ Lens lens_of(const CheckArguments& arguments) {
 
 std::string check_text(const TargetBody& body, const Likeness& likeness, const CheckArguments& arguments,
                        const std::vector<RangeCheck>& checks) {
-  std::string text = format(
-      "nearest likeness: turned by %.1f deg, %zu of %zu targets fall on targets within %.1f mm%s\n",
-      likeness.angle / kDegree, likeness.matched, body.targets.size(), arguments.tolerance_mm,
-      likeness.matched == body.targets.size() ? ": the card is symmetric, its pose can not be known" : "");
+  const bool whole = likeness.matched == body.targets.size();
+  std::string text =
+      likeness.matched == 0
+          ? format("no turn lays three targets of the card on others within %.1f mm\n",
+                   arguments.tolerance_mm)
+          : format(
+                "nearest likeness: turned by %.1f deg, %zu of %zu targets fall on targets within %.1f mm%s\n",
+                likeness.angle / kDegree, likeness.matched, body.targets.size(), arguments.tolerance_mm,
+                whole ? ": the card is symmetric, its pose can not be known" : "");
   text +=
       "range [m]  trials  right  wrong  ambiguous  none  two poses  position sigma [mm]  rotation sigma "
       "[deg]\n";

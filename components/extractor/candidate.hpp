@@ -22,4 +22,10 @@ struct Candidate {
   PixelNoise noise;
 };
 
+/// Order of brightness; ties in reading order, so that it is the same on every machine.
+inline bool brighter(const Candidate& a, const Candidate& b) {
+  if (a.height != b.height) return a.height > b.height;
+  return a.v != b.v ? a.v < b.v : a.u < b.u;
+}
+
 }  // namespace omma

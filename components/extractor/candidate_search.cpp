@@ -60,11 +60,8 @@ void CandidateSearch::add_candidates(const Blob& blob) noexcept {
   find_peaks(image_, invert_, candidate, peaks_);
   candidate.peaks = std::max(1, static_cast<int>(peaks_.size()));
   const auto add = [&] {
-    if (candidates_->size() < candidates_->capacity()) {
-      candidates_->push_back(candidate);
-    } else {
-      ++without_room_;
-    }
+    if (candidates_->size() == candidates_->capacity()) drop_faint_half();
+    candidates_->push_back(candidate);
   };
   if (peaks_.empty()) return add();
   candidate.area /= candidate.peaks;
@@ -76,6 +73,14 @@ void CandidateSearch::add_candidates(const Blob& blob) noexcept {
     }
     add();
   }
+}
+
+// What is bright must not be lost because it comes late.
+void CandidateSearch::drop_faint_half() noexcept {
+  const auto middle = candidates_->begin() + static_cast<std::ptrdiff_t>(candidates_->size() / 2);
+  std::nth_element(candidates_->begin(), middle, candidates_->end(), brighter);
+  without_room_ += static_cast<std::uint32_t>(candidates_->end() - middle);
+  candidates_->erase(middle, candidates_->end());
 }
 
 // The runs of set bits of the row, each given to its blob.

@@ -19,9 +19,9 @@ class CandidateSearch {
   /// For images of exactly this size, at least 3×3 [px].
   CandidateSearch(int width, int height);
 
-  /// Adds the image's candidates, in the order in which their blobs end, up to the capacity of `candidates`.
+  /// Adds the image's candidates; where their capacity does not suffice, the faint half gives way.
   /// @param invert  the dots are darker than the background
-  /// @return how many found no room
+  /// @return how many gave way
   std::uint32_t find(const ImageView& image, bool invert, const ExtractorParameters& parameters,
                      std::vector<Candidate>& candidates) noexcept;
 
@@ -31,6 +31,7 @@ class CandidateSearch {
   void add_runs(int v) noexcept;
   void add_pixels(int first, int last, int v, Blob& blob) noexcept;
   void add_candidates(const Blob& blob) noexcept;
+  void drop_faint_half() noexcept;
 
   int width_, height_;
   BackgroundMap background_;

@@ -48,7 +48,7 @@ void DotExtractor::search(const ImageView& image, const ExtractorParameters& par
     add_wide(image, parameters, invert, width);
     measurement_.start(image, invert, parameters, candidates_);
   }
-  measurement_.measure(candidates_, found_);
+  overflow_ += static_cast<std::uint32_t>(measurement_.measure(candidates_, found_));
 }
 
 // Candidates of the halved image take the place of what the fine scale made of the same spots: pieces, if

@@ -19,7 +19,9 @@ constexpr double kModelError = 0.002;  // what no model of a real spot is better
 constexpr double kSecondOrder = 11;
 constexpr int kLeastPixels = 12;         // of a window
 constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
-constexpr int kSweeps = 2;               // over spots in each other's light, after the first
+// Of one image at most so many dots are measured: the best of them are handed over.
+constexpr std::size_t kMost = 2 * limits::kDotsPerCamera;
+constexpr int kSweeps = 2;  // over spots in each other's light, after the first
 
 int radius_for(double sigma) {
   return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
@@ -282,15 +284,15 @@ float DotMeasurement::start(const ImageView& image, bool invert, const Extractor
   invert_ = invert;
   field_.clear();
   dot_of_spot_.clear();
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.height != b.height) return a.height > b.height;
-    return a.v != b.v ? a.v < b.v : a.u < b.u;
-  });
+  std::sort(candidates.begin(), candidates.end(), brighter);
   learn_width(candidates);
   return width_known_ ? prior_.sigma : 0;
 }
 
-void DotMeasurement::measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept {
+std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
+                                    std::vector<Dot>& dots) noexcept {
+  const std::size_t enough = std::min(dots.capacity(), dots.size() + kMost);
+  std::size_t measured = 0;
   // Peaks of one blob are taken to be spots before they are measured: their light must not draw each other.
   for (const Candidate& candidate : candidates) {
     FieldSpot spot;
@@ -303,7 +305,7 @@ void DotMeasurement::measure(const std::vector<Candidate>& candidates, std::vect
     field_.add(spot);
     dot_of_spot_.push_back(-1);
   }
-  for (std::size_t i = 0; i < candidates.size() && dots.size() < dots.capacity(); ++i) {
+  for (std::size_t i = 0; i < candidates.size() && dots.size() < enough; ++i, ++measured) {
     const Candidate& candidate = candidates[i];
     Dot dot;
     start_at(candidate);
@@ -323,6 +325,7 @@ void DotMeasurement::measure(const std::vector<Candidate>& candidates, std::vect
   for (int sweep = 0; sweep < kSweeps && remeasure_crowded(candidates, dots); ++sweep) {
   }
   std::erase_if(dots, [](const Dot& dot) { return dot.snr == 0; });
+  return candidates.size() - measured;
 }
 
 }  // namespace omma

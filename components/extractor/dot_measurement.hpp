@@ -26,8 +26,10 @@ class DotMeasurement {
   /// @return width of the image's point spread [px]; 0 where too few spots tell it
   float start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
               std::vector<Candidate>& candidates) noexcept;
-  /// Measures the candidates last given to start and adds what is found to `dots`, up to their capacity.
-  void measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+  /// Measures the candidates last given to start, brightest first, and adds what is found to `dots`, up to
+  /// twice what a list of dots holds and up to their capacity.
+  /// @return how many candidates were left unmeasured
+  std::size_t measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
 
  private:
   void learn_width(const std::vector<Candidate>& candidates) noexcept;

@@ -1,11 +1,15 @@
 // The extractor on images whose truth is known: accuracy against the Cramér–Rao bound, honesty of its
 // covariances, recall, false dots, and time beside a memcpy of the same image.
 #include <cstdio>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
+#include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/dot_extractor.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/photographs.hpp"
 #include "tests/bench/spot_scene.hpp"
 
 namespace omma {
@@ -24,38 +28,56 @@ constexpr Kind kKinds[] = {
     {"12 bits, noise of 3 grey levels, 2 electrons a grey level", 70, 3.0, 2, 4095},
 };
 
+constexpr double kMixed = 0;  // signal-to-noise ratios of 6 to 100, evenly spread in the logarithm
+
+SpotScore score_of(const Kind& kind, double sigma, double snr, int dots, std::mt19937_64& random,
+                   int& images) {
+  SpotScene scene;
+  scene.background = kind.background;
+  scene.noise = kind.noise;
+  scene.gain = kind.gain;
+  scene.white_level = kind.white_level;
+  DotExtractor extractor(scene.width, scene.height);
+  ExtractorParameters parameters;
+  parameters.gain = static_cast<float>(kind.gain > 0 ? kind.gain : 1e6);
+  auto list = std::make_unique<DotList>();
+  std::uniform_real_distribution<double> logarithm(std::log(6.0), std::log(100.0));
+  SpotScore score;
+  for (images = 0; score.spots < dots; ++images) {
+    scene.spots = grid_of_spots(scene, 40, sigma, snr, random);
+    for (MadeSpot& spot : scene.spots)
+      if (snr == kMixed) spot.snr = std::exp(logarithm(random));
+    const Image image = render(scene, random);
+    extractor.extract(image.view(), parameters, *list);
+    score.add(scene, list->dots);
+  }
+  return score;
+}
+
 void accuracy(const Kind& kind, int dots) {
   std::printf("\n%s; %d dots a row\n", kind.name, dots);
   std::printf("  %5s %5s  %7s %8s  %8s %8s %6s  %6s  %8s\n", "sigma", "SNR", "recall", "false", "rms px",
               "bound", "ratio", "NEES", "bias px");
+  SpotScore all;
   for (const double sigma : {0.7, 1.0, 1.5, 2.0, 2.5}) {
-    for (const double snr : {5.0, 7.0, 10.0, 20.0, 50.0, 100.0}) {
-      SpotScene scene;
-      scene.background = kind.background;
-      scene.noise = kind.noise;
-      scene.gain = kind.gain;
-      scene.white_level = kind.white_level;
-      DotExtractor extractor(scene.width, scene.height);
-      ExtractorParameters parameters;
-      parameters.gain = static_cast<float>(kind.gain > 0 ? kind.gain : 1e6);
-      auto list = std::make_unique<DotList>();
+    for (const double snr : {5.0, 7.0, 10.0, 20.0, 50.0, 100.0, kMixed}) {
       std::mt19937_64 random(static_cast<std::uint64_t>(1000 * sigma + snr));
-      SpotScore score;
       int images = 0;
-      while (score.spots < dots) {
-        scene.spots = grid_of_spots(scene, 40, sigma, snr, random);
-        const Image image = render(scene, random);
-        extractor.extract(image.view(), parameters, *list);
-        score.add(scene, list->dots);
-        ++images;
-      }
-      std::printf("  %5.2f %5.0f  %7.4f %8.2f  %8.4f %8.4f %6.3f  %6.2f  %8.4f\n", sigma, snr,
-                  static_cast<double>(score.found) / score.spots,
+      const SpotScore score = score_of(kind, sigma, snr, dots, random, images);
+      char name[8];
+      std::snprintf(name, sizeof name, "%.0f", snr);
+      std::printf("  %5.2f %5s  %7.4f %8.2f  %8.4f %8.4f %6.3f  %6.2f  %8.4f\n", sigma,
+                  snr > 0 ? name : "mixed", static_cast<double>(score.found) / score.spots,
                   static_cast<double>(score.false_dots) / images, score.rms(),
                   std::sqrt(score.squared_bound / (2 * std::max(1, score.found))), score.ratio(),
                   score.mean_nees(), score.largest_phase_bias());
+      if (snr == kMixed) {
+        all.found += score.found;
+        all.nees += score.nees;
+      }
     }
   }
+  std::printf("  mean NEES of the mixed rows: %.3f over %d dots (2 is honest)\n", all.mean_nees(), all.found);
 }
 
 void time_of(const char* name, int count, double sigma, int repeats) {
@@ -84,6 +106,97 @@ void time_of(const char* name, int count, double sigma, int repeats) {
               score.found, score.spots, score.false_dots, score.rms(), score.ratio(), score.mean_nees());
 }
 
+// Where the time goes: each stage by itself on the image of 500 stars.
+void time_of_stages(int repeats) {
+  SpotScene scene;
+  std::mt19937_64 random(7);
+  scene.background = 12;
+  scene.noise = 1.5;
+  scene.spots = scattered_spots(scene, 500, 14, 1, 30, random);
+  const Image image = render(scene, random);
+  const ImageView view = image.view();
+  ExtractorParameters parameters;
+  parameters.gain = 1e6F;
+  BackgroundMap background(view.width, view.height);
+  DetectionFilter filter(view.width, view.height);
+  CandidateSearch search(view.width, view.height);
+  DotMeasurement measurement(view.width, view.height, 4096);
+  std::vector<Candidate> candidates;
+  std::vector<Dot> dots;
+  candidates.reserve(4096);
+  dots.reserve(4096);
+  std::vector<double> mapping, filtering, searching, measuring;
+  for (int k = 0; k < repeats; ++k) {
+    mapping.push_back(microseconds([&] { background.build(view, false); }));
+    filtering.push_back(microseconds([&] {
+      filter.start(view, false, background, parameters.threshold);
+      for (int v = 1; v < view.height - 1; ++v) filter.row(v);
+    }));
+    candidates.clear();
+    dots.clear();
+    searching.push_back(microseconds([&] { search.find(view, false, parameters, candidates); }));
+    measuring.push_back(microseconds([&] {
+      measurement.start(view, false, parameters, candidates);
+      measurement.measure(candidates, dots);
+    }));
+  }
+  const double map_us = quantile(mapping, 0.5), filter_us = quantile(filtering, 0.5);
+  std::printf(
+      "  of 500 stars: background %.3f, detection filter %.3f, components and peaks %.3f, measurement %.3f "
+      "ms\n",
+      1e-3 * map_us, 1e-3 * filter_us, 1e-3 * (quantile(searching, 0.5) - map_us - filter_us),
+      1e-3 * quantile(measuring, 0.5));
+}
+
+// A real photograph with its list of stars to V 4.5 that others found in it: how many of them have a dot, and
+// how many of as many of the brightest dots are stars of the catalogue at the photograph's true attitude.
+void real_photograph() {
+  const auto all = photographs(OMMA_SHARED_DATA "/data", PhotographGroup::kLongyearbyen);
+  if (all.empty()) {
+    std::printf("\nphotograph of Longyearbyen: not in the shared data folder\n");
+    return;
+  }
+  const Photograph& photograph = all[0];
+  const Image image = read_image(photograph.images[0]);
+  DotExtractor extractor(image.width, image.height);
+  auto list = std::make_unique<DotList>();
+  extractor.extract(image.view(), ExtractorParameters{}, *list);
+  constexpr double kNear = 1.5;  // [px]; the lens is known to a quarter of a pixel
+  const auto near = [&](const Dot& dot, const Eigen::Vector2d& pixel) {
+    return (dot.pixel - pixel).norm() < kNear;
+  };
+  const auto& dots = list->dots;
+  std::filesystem::path truth_file = photograph.images[0];
+  truth_file.replace_filename(truth_file.stem().string() + "_truth.json");
+  const auto truth = nlohmann::json::parse(std::ifstream(truth_file));
+  int seen = 0;
+  for (const auto& star : truth.at("stars")) {
+    const Eigen::Vector2d pixel(star.at("x").get<double>(), star.at("y").get<double>());
+    seen += std::any_of(dots.begin(), dots.end(), [&](const Dot& dot) { return near(dot, pixel); }) ? 1 : 0;
+  }
+  const auto listed = static_cast<int>(truth.at("stars").size());
+  std::vector<bool> is_star(dots.size(), false);
+  const RigCamera& camera = photograph.rig.cameras[0];
+  const StarCatalogue catalogue(photograph.observer, {8.0F, 0});
+  for (const SkyStar& star : catalogue.stars()) {
+    Eigen::Vector2d pixel;
+    if (!camera.lens.project(
+            camera.rig_from_camera.rotation.conjugate() * (photograph.rig_from_j2000 * star.direction),
+            pixel))
+      continue;
+    for (std::size_t i = 0; i < dots.size(); ++i) is_star[i] = is_star[i] || near(dots[i], pixel);
+  }
+  const auto brightest = std::min<std::ptrdiff_t>(listed, static_cast<std::ptrdiff_t>(is_star.size()));
+  const auto stars = static_cast<int>(std::count(is_star.begin(), is_star.begin() + brightest, true));
+  std::printf(
+      "\nphotograph of Longyearbyen: %d of %d listed stars to V 4.5 found (recall %.3f); of the %d brightest "
+      "dots "
+      "%d are stars of the catalogue (precision %.3f); of all %d dots %d\n",
+      seen, listed, static_cast<double>(seen) / listed, static_cast<int>(brightest), stars,
+      static_cast<double>(stars) / static_cast<double>(brightest), static_cast<int>(is_star.size()),
+      static_cast<int>(std::count(is_star.begin(), is_star.end(), true)));
+}
+
 }  // namespace
 
 int bench_extract(int argc, char** argv) {
@@ -93,11 +206,12 @@ int bench_extract(int argc, char** argv) {
   const int dots = option(argc, argv, "--dots", 10000);
   std::printf("1024 x 768, 8 bits, one core\n  %-22s %8s %8s %9s %7s\n", "image", "med ms", "p95 ms",
               "memcpy ms", "ratio");
-
   time_of("empty", 0, 1.0, repeats);
   time_of("60 stars, 1 px", 60, 1.0, repeats);
   time_of("500 stars, 1 px", 500, 1.0, repeats);
   time_of("25 targets, 2 px", 25, 2.0, repeats);
+  time_of_stages(repeats);
+  real_photograph();
   if (dots == 0) return 0;
   const int only = option(argc, argv, "--sensor", 0);
   for (int k = 1; const Kind& kind : kKinds)

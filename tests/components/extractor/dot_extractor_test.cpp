@@ -142,6 +142,25 @@ TEST_F(Extraction, GivesTheSameDotsAgainWhateverCameBetween) {
   }
 }
 
+TEST_F(Extraction, FindsWhatIsBrightBelowAFloodOfFaintDots) {
+  scene.width = 1024;
+  scene.height = 768;
+  scene.spots = grid_of_spots(scene, 9, 0.7, 12, random);
+  ASSERT_GT(scene.spots.size(), 8000U);  // twice as many as candidates are kept
+  std::erase_if(scene.spots, [](const MadeSpot& spot) { return spot.pixel.y() > 690; });
+  const Image faint = render(scene, random);
+  Image image = faint;
+  scene.spots = grid_of_spots(scene, 34, 0.7, 90, random);
+  std::erase_if(scene.spots, [](const MadeSpot& spot) { return spot.pixel.y() < 704; });
+  ASSERT_GT(scene.spots.size(), 10U);
+  const Image bright = render(scene, random);
+  for (std::size_t i = 700 * 1024; i < image.pixels.size(); ++i) image.pixels[i] = bright.pixels[i];
+  SpotScore score;
+  score.add(scene, dots_of(image).dots);
+  EXPECT_EQ(score.found, score.spots);
+  EXPECT_GT(list->dropped, 4000U);
+}
+
 TEST_F(Extraction, KeepsTheBrightestWhereThereAreTooMany) {
   scene.width = 640;
   scene.height = 480;

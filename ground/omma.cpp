@@ -15,6 +15,7 @@
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
+#include "ground/resect/resect.hpp"
 #include "ground/simulate/simulate.hpp"
 #include "ground/solve/solve.hpp"
 #include "ground/stars/stars.hpp"
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   omma::ground::CommandContext context;
   omma::ground::add_solve(app, context);
+  omma::ground::add_resect(app, context);
   omma::ground::add_report(app, context);
   omma::ground::add_simulate(app, context);
   omma::ground::add_ideal_lens(app, context);

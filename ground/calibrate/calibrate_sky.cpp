@@ -12,6 +12,7 @@
 #include "ground/calibrate/refine_dots.hpp"
 #include "ground/calibrate/sky_report.hpp"
 #include "ground/page/page.hpp"
+#include "ground/photographs/photographs.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
 
@@ -49,12 +50,6 @@ void check(const Arguments& a) {
                      "--epoch with it (refraction needs to know where the zenith is)", "no epoch");
 }
 
-void require_size(const std::string& file, const Image& image, int width, int height) {
-  if (image.width == width && image.height == height) return;
-  throw InputError(file, 0, "image size", format("%d x %d", width, height),
-                   format("%d x %d", image.width, image.height));
-}
-
 // Equidistant, the full field across the shorter side of the image: what an operator knows without measuring.
 Lens guessed_lens(const Image& image, double fov_deg) {
   const double half = 0.5 * fov_deg * kDegree;
@@ -72,7 +67,7 @@ Exposures single_camera(const Arguments& a) {
     if (e.sets.size() == 1) {
       camera.lens = a.lens.empty() ? guessed_lens(image, a.fov_deg) : read_lens_file(a.lens);
     }
-    require_size(file, image, camera.lens.width(), camera.lens.height());
+    require_size(file, image, camera.lens);
   }
   e.rig.name = camera.name;
   e.rig.cameras.push_back(camera);
@@ -85,21 +80,12 @@ Exposures whole_rig(const Arguments& a) {
   e.rig = read_rig_file(a.rig);
   std::vector<std::size_t> count(e.rig.cameras.size(), 0);
   for (const std::string& argument : a.images) {
-    const std::size_t equals = argument.find('=');
-    if (equals == std::string::npos)
-      throw InputError(argument, 0, "image", "CAMERA=FILE when a rig is given", "no camera name");
-    std::size_t camera = 0;
-    while (camera < e.rig.cameras.size() && e.rig.cameras[camera].name.view() != argument.substr(0, equals))
-      ++camera;
-    if (camera == e.rig.cameras.size())
-      throw InputError(argument, 0, "camera", "a camera of the rig " + a.rig, argument.substr(0, equals));
+    const auto [camera, file] = camera_file(argument, e.rig, a.rig);
     const std::size_t set = count[camera]++;
     if (e.sets.size() <= set) e.sets.resize(set + 1);
     e.sets[set].resize(e.rig.cameras.size());
-    const std::string file = argument.substr(equals + 1);
     e.sets[set][camera] = read_image(file);
-    const Lens& lens = e.rig.cameras[camera].lens;
-    require_size(file, e.sets[set][camera], lens.width(), lens.height());
+    require_size(file, e.sets[set][camera], e.rig.cameras[camera].lens);
   }
   return e;
 }

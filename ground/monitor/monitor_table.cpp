@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "components/geometry/angles.hpp"
+
 namespace omma::ground {
 namespace {
 
@@ -49,41 +51,6 @@ const char* name_of(omma_EventSeverity severity) {
 
 Eigen::Quaterniond eigen(const omma_Quaternion& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
-}
-
-double wrapped(double angle) {
-  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
-}
-
-/// Where the rig's z axis points, and the position angle of its −y axis (up in a camera that looks along z).
-struct Pointing {
-  double right_ascension;
-  double declination;
-  double roll;
-};
-
-Pointing pointing(const Eigen::Quaterniond& rig_from_j2000) {
-  const Eigen::Matrix3d j2000_from_rig = rig_from_j2000.toRotationMatrix().transpose();
-  const Eigen::Vector3d axis = j2000_from_rig.col(2);
-  const Eigen::Vector3d up = -j2000_from_rig.col(1);
-  const double ra = wrapped(std::atan2(axis.y(), axis.x()));
-  const double dec = std::asin(std::clamp(axis.z(), -1.0, 1.0));
-  const Eigen::Vector3d north(-std::sin(dec) * std::cos(ra), -std::sin(dec) * std::sin(ra), std::cos(dec));
-  const Eigen::Vector3d east(-std::sin(ra), std::cos(ra), 0);
-  return {ra, dec, wrapped(std::atan2(up.dot(east), up.dot(north)))};
-}
-
-/// Yaw about z, pitch about y, roll about x, in this order: R = Rz Ry Rx.
-struct YawPitchRoll {
-  double yaw;
-  double pitch;
-  double roll;
-};
-
-YawPitchRoll yaw_pitch_roll(const Eigen::Quaterniond& q) {
-  const Eigen::Matrix3d r = q.toRotationMatrix();
-  return {std::atan2(r(1, 0), r(0, 0)), std::asin(std::clamp(-r(2, 0), -1.0, 1.0)),
-          std::atan2(r(2, 1), r(2, 2))};
 }
 
 class Table {

@@ -7,6 +7,7 @@
 
 #include "components/estimation/least_squares.hpp"
 #include "components/extractor/dot_extractor.hpp"
+#include "components/geometry/angles.hpp"
 #include "components/tracker/seen_dots.hpp"
 #include "components/tracker/sky_pairing.hpp"
 #include "components/tracker/star_identification.hpp"
@@ -14,11 +15,6 @@
 namespace omma::ground {
 namespace {
 
-// What a lens file may be wrong by before its residuals have been seen [px].
-constexpr double kLensErrorAtFirst = 0.3;
-// No photograph's lens is known better than this [px].
-constexpr double kLeastLensError = 0.02;
-constexpr double kLargestLensError = 10;
 constexpr int kPasses = 4;
 // Nobody waits for a photograph as a spacecraft waits for its attitude: about half a second at most.
 constexpr std::uint32_t kHypothesisLimit = 1'000'000;
@@ -42,26 +38,6 @@ double finest_pixel_angle(const Rig& rig) {
   return finest;
 }
 
-double wrapped(double angle) {
-  return angle < 0 ? angle + 2 * M_PI : angle;
-}
-
-SolvedCamera pointing(const RigCamera& camera, const Eigen::Quaterniond& rig_from_j2000) {
-  const Eigen::Matrix3d j2000_from_camera =
-      (camera.rig_from_camera.rotation.conjugate() * rig_from_j2000).conjugate().toRotationMatrix();
-  const Eigen::Vector3d axis = j2000_from_camera.col(2);
-  const Eigen::Vector3d up = -j2000_from_camera.col(1);
-  SolvedCamera solved;
-  solved.right_ascension = wrapped(std::atan2(axis.y(), axis.x()));
-  solved.declination = std::asin(std::clamp(axis.z(), -1.0, 1.0));
-  const double ra = solved.right_ascension;
-  const double dec = solved.declination;
-  const Eigen::Vector3d north(-std::sin(dec) * std::cos(ra), -std::sin(dec) * std::sin(ra), std::cos(dec));
-  const Eigen::Vector3d east(-std::sin(ra), std::cos(ra), 0);
-  solved.roll = wrapped(std::atan2(up.dot(east), up.dot(north)));
-  return solved;
-}
-
 }  // namespace
 
 struct PhotographSolver::Work {
@@ -78,9 +54,8 @@ struct PhotographSolver::Work {
 
   void extract(const std::vector<ImageView>& images);
   bool identify(PhotographSolution& solution);
-  void pair_and_solve(const PredictedAttitude& prediction, double lens_error, PhotographSolution& solution);
+  void pair_and_solve(const PredictedAttitude& prediction, double error, PhotographSolution& solution);
   void residuals(PhotographSolution& solution) const;
-  double lens_error(const PhotographSolution& solution) const;
   const Dot& dot_of(const SolvedPair& pair) const {
     return dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
   }
@@ -121,11 +96,11 @@ bool PhotographSolver::Work::identify(PhotographSolution& solution) {
 }
 
 // Every dot the attitude explains, and the least squares over them.
-void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction, double lens_error,
+void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction, double error,
                                             PhotographSolution& solution) {
-  seen.build(dots, rig, lens_error);
+  seen.build(dots, rig, error);
   AssignmentGate gate;
-  gate.floor_px = lens_error;
+  gate.floor_px = error;
   static thread_local StaticVector<Pairing, limits::kStarPairs> pairs;
   pairs.clear();
   sky_pairing.pair(seen, rig, catalogue.stars(), prediction, options.magnitude_limit, gate, {}, pairs);
@@ -139,43 +114,21 @@ void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction,
 
 // Distance of each dot from its star [px].
 void PhotographSolver::Work::residuals(PhotographSolution& solution) const {
-  double sum = 0;
-  int count = 0;
   for (SolvedPair& pair : solution.pairs) {
     const RigCamera& camera = rig.cameras[pair.pairing.camera];
     const Eigen::Vector3d direction = camera.rig_from_camera.rotation.conjugate() *
                                       (solution.attitude.rig_from_j2000 * pair.pairing.sight.point);
     Eigen::Vector2d pixel;
-    if (!camera.lens.project(direction, pixel)) continue;
-    pair.residual_px = (dot_of(pair).pixel - pixel).norm();
-    if (!pair.used) continue;
-    sum += pair.residual_px * pair.residual_px;
-    ++count;
+    if (camera.lens.project(direction, pixel)) pair.residual_px = (dot_of(pair).pixel - pixel).norm();
   }
-  solution.residual_rms_px = count == 0 ? 0 : std::sqrt(sum / count);
-}
-
-// The standard deviation per axis that, added to the dots' own, makes the residuals as large as they are: the
-// root f of Σ r²/(tr C + 2f²) = n.
-double PhotographSolver::Work::lens_error(const PhotographSolution& solution) const {
-  double low = kLeastLensError;
-  double high = kLargestLensError;
-  for (int halving = 0; halving < 20; ++halving) {
-    const double f = 0.5 * (low + high);
-    double excess = 0;
-    for (const SolvedPair& pair : solution.pairs) {
-      if (!pair.used) continue;
-      const double variance = dot_of(pair).covariance.trace() + 2 * f * f;
-      excess += pair.residual_px * pair.residual_px / variance - 1;
-    }
-    (excess > 0 ? low : high) = f;
-  }
-  return 0.5 * (low + high);
+  solution.residual_rms_px = residual_rms(solution.pairs);
 }
 
 void PhotographSolver::Work::finish(PhotographSolution& solution) const {
   for (const RigCamera& camera : rig.cameras) {
-    solution.cameras.push_back(pointing(camera, solution.attitude.rig_from_j2000));
+    const Pointing axis =
+        pointing(camera.rig_from_camera.rotation.conjugate() * solution.attitude.rig_from_j2000);
+    solution.cameras.push_back({axis.right_ascension, axis.declination, axis.roll});
   }
   for (const SolvedPair& pair : solution.pairs) {
     if (pair.used) ++solution.cameras[pair.pairing.camera].stars_used;
@@ -229,7 +182,7 @@ PhotographSolution PhotographSolver::Work::solve() {
     }
     residuals(solution);
     attitude = {solution.attitude.rig_from_j2000, solution.attitude.covariance};
-    error = lens_error(solution);
+    error = lens_error(solution.pairs, dots, 3);
   }
   solution.times.attitude_ms = stopwatch.lap_ms();
   solution.solved = true;

@@ -14,7 +14,7 @@
 #include "components/extractor/dot_lists.hpp"
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
-#include "components/tracker/pairings.hpp"
+#include "ground/photographs/solved_pairs.hpp"
 #include "hal/image.hpp"
 
 namespace omma::ground {
@@ -23,12 +23,6 @@ struct SolverOptions {
   Observer observer;
   ExtractorParameters extractor;
   float magnitude_limit = 6.5F;  ///< faintest star paired
-};
-
-struct SolvedPair {
-  Pairing pairing;
-  bool used = false;       ///< false: culled for its residual
-  double residual_px = 0;  ///< distance of the dot from its star
 };
 
 struct SolvedCamera {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ground/draw/canvas.hpp"
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

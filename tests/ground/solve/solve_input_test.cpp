@@ -9,7 +9,7 @@
 #include <random>
 
 #include "hal/recorded/image_file.hpp"
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

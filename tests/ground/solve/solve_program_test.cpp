@@ -8,7 +8,7 @@
 
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/photographs.hpp"
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -22,9 +23,12 @@ struct Told {
 class OperatorsFolder {
  public:
   OperatorsFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    // Of one test, or of a suite while it is being set up. ctest runs tests of a suite side by side.
+    const auto* unit = testing::UnitTest::GetInstance();
+    const auto* test = unit->current_test_info();
     path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("omma_") + test->test_suite_name() + "_" + test->name());
+            (std::string("omma_") + unit->current_test_suite()->name() + "_" +
+             (test != nullptr ? test->name() : std::to_string(getpid())));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

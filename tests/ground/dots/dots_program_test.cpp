@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/bench/spot_scene.hpp"
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "components/catalogue/target_file.hpp"
 #include "ground/draw/canvas.hpp"
-#include "tests/ground/solve/run_omma.hpp"
+#include "tests/ground/run_omma.hpp"
 
 namespace omma {
 namespace {

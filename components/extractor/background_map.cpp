@@ -137,8 +137,8 @@ void gather(const ImageView& image, int left, int top, bool invert, CellSamples<
 }
 
 // Median of nine, side by side, by the exchanges that matter (Devillard 1998, after Smith).
-Floats median_of_nine(std::array<Floats, 9>& p) {
-  const auto order = [&](std::size_t a, std::size_t b) {
+[[gnu::always_inline]] inline Floats median_of_nine(std::array<Floats, 9>& p) {
+  const auto order = [&](std::size_t a, std::size_t b) __attribute__((always_inline)) {
     const Floats low = p[a] < p[b] ? p[a] : p[b];
     p[b] = p[a] < p[b] ? p[b] : p[a];
     p[a] = low;
@@ -165,6 +165,16 @@ Floats median_of_nine(std::array<Floats, 9>& p) {
     order(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
   return p[4];
+}
+
+OMMA_CLONES void median_rows(const std::array<const float*, 3>& rows, std::size_t columns, float* out) {
+  for (std::size_t column = 0; column < columns; column += kLanes) {
+    std::array<Floats, 9> nine;
+    for (std::size_t k = 0; k < 9; ++k) nine[k] = load(rows[k / 3] + column + k % 3);
+    std::array<float, kLanes> median{};
+    store(median.data(), median_of_nine(nine));
+    std::copy_n(median.begin(), std::min(kLanes, columns - column), out + column);
+  }
 }
 
 }  // namespace
@@ -225,14 +235,7 @@ void BackgroundMap::smooth(const std::vector<float>& raw, std::vector<float>& ou
       std::copy_n(from, columns, to + 1);
       std::fill_n(to + 1 + columns, kLanes + 1, from[columns - 1]);
     }
-    for (std::size_t column = 0; column < columns; column += kLanes) {
-      std::array<Floats, 9> nine;
-      for (std::size_t k = 0; k < 9; ++k) nine[k] = load(padded[k / 3] + column + k % 3);
-      std::array<float, kLanes> median{};
-      store(median.data(), median_of_nine(nine));
-      std::copy_n(median.begin(), std::min(kLanes, columns - column),
-                  &out[static_cast<std::size_t>(row) * columns + column]);
-    }
+    median_rows({padded[0], padded[1], padded[2]}, columns, &out[static_cast<std::size_t>(row) * columns]);
   }
 }
 

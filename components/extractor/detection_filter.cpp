@@ -28,27 +28,40 @@ inline std::uint8_t average(std::uint8_t a, std::uint8_t b) {
   return static_cast<std::uint8_t>((a + b + 1) >> 1);
 }
 
-// Full, kFull at least, where it does not fit.
-OMMA_CLONES void narrow_8(const std::uint8_t* x, int n, std::uint8_t flip, std::uint8_t pedestal,
-                          int exponent, std::uint8_t* out) {
-  const auto most = static_cast<std::uint8_t>(255 >> exponent);
+// Full, kFull at least, where it does not fit. Each returns the largest.
+template <int kExponent>
+[[gnu::always_inline]] inline std::uint8_t narrow(const std::uint8_t* x, int n, std::uint8_t flip,
+                                                  std::uint8_t pedestal, std::uint8_t* out) {
+  constexpr auto kMost = static_cast<std::uint8_t>(255 >> kExponent);
+  std::uint8_t most = 0;
   for (int u = 0; u < n; ++u) {
     const auto turned = static_cast<std::uint8_t>(x[u] ^ flip);
     const auto over = static_cast<std::uint8_t>(std::max(turned, pedestal) - pedestal);
-    out[u] = std::min(over, most);
+    auto y = std::min(over, kMost);
+    for (int k = 0; k < kExponent; ++k) y = static_cast<std::uint8_t>(y + y);
+    out[u] = y;
+    most = std::max(most, y);
   }
-  for (int k = 0; k < exponent; ++k)
-    for (int u = 0; u < n; ++u) out[u] = static_cast<std::uint8_t>(out[u] + out[u]);
+  return most;
+}
+OMMA_CLONES std::uint8_t narrow_8(const std::uint8_t* x, int n, std::uint8_t flip, std::uint8_t pedestal,
+                                  int exponent, std::uint8_t* out) {
+  if (exponent == 0) return narrow<0>(x, n, flip, pedestal, out);
+  if (exponent == 1) return narrow<1>(x, n, flip, pedestal, out);
+  return narrow<2>(x, n, flip, pedestal, out);
 }
 
-OMMA_CLONES void narrow_16(const std::uint16_t* x, int n, std::uint16_t white, bool invert,
-                           std::uint16_t pedestal, int exponent, std::uint8_t* out) {
+OMMA_CLONES std::uint8_t narrow_16(const std::uint16_t* x, int n, std::uint16_t white, bool invert,
+                                   std::uint16_t pedestal, int exponent, std::uint8_t* out) {
+  std::uint8_t most = 0;
   for (int u = 0; u < n; ++u) {
     const std::uint16_t turned = invert ? static_cast<std::uint16_t>(white - std::min(x[u], white)) : x[u];
     const int over = std::max(turned, pedestal) - pedestal;
     const int scaled = exponent >= 0 ? over << exponent : (over + (1 << -exponent) - 1) >> -exponent;
     out[u] = static_cast<std::uint8_t>(std::min(scaled, 255));
+    most = std::max(most, out[u]);
   }
+  return most;
 }
 
 OMMA_CLONES void average_across(const std::uint8_t* x, int n, std::uint8_t* out) {
@@ -77,17 +90,24 @@ bool strip_over(const std::uint8_t* x, std::uint8_t limit) {
 
 // Bit i: the smoothed value of pixel i of a strip (made brighter by turning it about `turn`, where that is
 // not 0) is over the straight line start + slope · i. The pointers are to the left neighbours of the first.
-template <class Pixel>
+// Sum has room for the sums.
+template <class Sum, class Pixel>
 [[gnu::always_inline]] inline std::uint64_t strip_bits(const Pixel* above, const Pixel* here,
                                                        const Pixel* below, int turn, float start,
                                                        float slope) {
-  std::array<std::int32_t, kStrip + 2> down;
-  for (std::size_t i = 0; i < down.size(); ++i) down[i] = above[i] + 2 * here[i] + below[i];
+  std::array<Sum, kStrip + 2> down;
+  for (std::size_t i = 0; i < down.size(); ++i) down[i] = static_cast<Sum>(above[i] + 2 * here[i] + below[i]);
+  // A whole number is over the line where it is over the line's whole part.
+  std::array<Sum, kStrip> limit;
+  for (std::size_t i = 0; i < kStrip; ++i) {
+    const float line = start + slope * static_cast<float>(static_cast<std::int32_t>(i));
+    limit[i] = static_cast<Sum>(static_cast<std::int32_t>(line));
+  }
   std::array<std::uint8_t, kStrip> over;
   for (std::size_t i = 0; i < kStrip; ++i) {
-    const std::int32_t sum = down[i] + 2 * down[i + 1] + down[i + 2];
-    const auto value = static_cast<float>(turn > 0 ? turn - sum : sum);
-    over[i] = value > start + slope * static_cast<float>(static_cast<std::int32_t>(i)) ? 1 : 0;
+    const auto sum = static_cast<Sum>(down[i] + 2 * down[i + 1] + down[i + 2]);
+    const auto value = turn > 0 ? static_cast<Sum>(turn - sum) : sum;
+    over[i] = value > limit[i] ? 1 : 0;
   }
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < kStrip; i += 8) {
@@ -99,11 +119,11 @@ template <class Pixel>
 }
 OMMA_CLONES std::uint64_t bits_of(const std::uint8_t* above, const std::uint8_t* here,
                                   const std::uint8_t* below, int turn, float start, float slope) {
-  return strip_bits(above, here, below, turn, start, slope);
+  return strip_bits<std::int16_t>(above, here, below, turn, start, slope);
 }
 OMMA_CLONES std::uint64_t bits_of(const std::uint16_t* above, const std::uint16_t* here,
                                   const std::uint16_t* below, int turn, float start, float slope) {
-  return strip_bits(above, here, below, turn, start, slope);
+  return strip_bits<std::int32_t>(above, here, below, turn, start, slope);
 }
 
 }  // namespace
@@ -138,12 +158,15 @@ void DetectionFilter::start(const ImageView& image, bool invert, const Backgroun
   invert_ = invert;
   columns_ = background.columns();
   rows_ = background.rows();
+  // Above all that can be: nothing is over it.
+  const float most = kFilterSum * (static_cast<float>(image.white_level) + 1);
   std::size_t i = 0;
   for (int row = 0; row < rows_; ++row) {
     const float* level = background.level_row(row);
     const float* noise = background.noise_row(row);
     for (int column = 0; column < columns_; ++column)
-      threshold_[i++] = kFilterSum * level[column] + threshold * kFilterDeviation * noise[column];
+      threshold_[i++] =
+          std::min(kFilterSum * level[column] + threshold * kFilterDeviation * noise[column], most);
   }
   choose_scale(background);
   band_ = -2;
@@ -171,17 +194,21 @@ void DetectionFilter::choose_scale(const BackgroundMap& background) noexcept {
 
 void DetectionFilter::average_row(int v) noexcept {
   const std::size_t slot = index_of(v % 3);
+  std::uint8_t most = 0;
   if (image_->format == PixelFormat::kGrey8) {
-    narrow_8(image_->row<std::uint8_t>(v), width_, invert_ ? 0xFF : 0, static_cast<std::uint8_t>(pedestal_),
-             exponent_, narrow_.data());
+    most = narrow_8(image_->row<std::uint8_t>(v), width_, invert_ ? 0xFF : 0,
+                    static_cast<std::uint8_t>(pedestal_), exponent_, narrow_.data());
   } else {
-    narrow_16(image_->row<std::uint16_t>(v), width_, image_->white_level, invert_,
-              static_cast<std::uint16_t>(pedestal_), exponent_, narrow_.data());
+    most = narrow_16(image_->row<std::uint16_t>(v), width_, image_->white_level, invert_,
+                     static_cast<std::uint16_t>(pedestal_), exponent_, narrow_.data());
   }
   average_across(narrow_.data(), width_, across_[slot].data());
-  find_over(narrow_.data(), full_limit_.data(), words(), full_[slot].data());
-  any_full_[slot] =
-      std::any_of(full_[slot].begin(), full_[slot].end(), [](std::uint8_t x) { return x != 0; });
+  any_full_[slot] = most >= kFull;
+  if (any_full_[slot]) {
+    find_over(narrow_.data(), full_limit_.data(), words(), full_[slot].data());
+  } else {
+    std::fill(full_[slot].begin(), full_[slot].end(), std::uint8_t{0});
+  }
 }
 
 bool DetectionFilter::row(int v) noexcept {
@@ -192,13 +219,14 @@ bool DetectionFilter::row(int v) noexcept {
   const int count = words();
   const int strips = count * kStripsOfWord;
   const bool band_changed = band != band_;
+  const float unit = std::ldexp(1.0F, exponent_);
   if (band_changed) {  // the lowest threshold that plays a part in a strip of this band
     band_ = band;
     for (int k = 0; k < strips; ++k) {
       const int column = left_cell(k);
       const float lowest = std::min({threshold_of(band, column), threshold_of(band, column + 1),
                                      threshold_of(band + 1, column), threshold_of(band + 1, column + 1)});
-      const float scaled = std::ldexp(lowest / kFilterSum - static_cast<float>(pedestal_), exponent_);
+      const float scaled = (lowest / kFilterSum - static_cast<float>(pedestal_)) * unit;
       limit_[static_cast<std::size_t>(k)] =
           static_cast<std::uint8_t>(std::clamp(std::floor(scaled), 0.0F, kFullRange));
     }
@@ -243,10 +271,13 @@ void DetectionFilter::prepare_row(int v) noexcept {
   const float y = (static_cast<float>(v) + 0.5F) / kCell - 0.5F;
   const int row = static_cast<int>(std::floor(y));
   const float down = y - static_cast<float>(row);
-  for (int column = -1; column <= columns_; ++column) {
-    const float top = threshold_of(row, column);
-    row_threshold_[index_of(column + 1)] = top + down * (threshold_of(row + 1, column) - top);
-  }
+  const float* top = &threshold_[index_of(std::clamp(row, 0, rows_ - 1), 0, columns_)];
+  const float* bottom = &threshold_[index_of(std::clamp(row + 1, 0, rows_ - 1), 0, columns_)];
+  float* out = row_threshold_.data();
+  for (int column = 0; column < columns_; ++column)
+    out[column + 1] = top[column] + down * (bottom[column] - top[column]);
+  out[0] = out[1];
+  out[columns_ + 1] = out[columns_];
 }
 
 // The threshold is bilinear between the cells' centres, which lie between two strips.

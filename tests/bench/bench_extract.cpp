@@ -186,15 +186,18 @@ void real_photograph() {
       continue;
     for (std::size_t i = 0; i < dots.size(); ++i) is_star[i] = is_star[i] || near(dots[i], pixel);
   }
+  float least = 1e9F;
+  for (const Dot& dot : dots) least = std::min(least, dot.snr);
   const auto brightest = std::min<std::ptrdiff_t>(listed, static_cast<std::ptrdiff_t>(is_star.size()));
   const auto stars = static_cast<int>(std::count(is_star.begin(), is_star.begin() + brightest, true));
   std::printf(
-      "\nphotograph of Longyearbyen: %d of %d listed stars to V 4.5 found (recall %.3f); of the %d brightest "
-      "dots "
-      "%d are stars of the catalogue (precision %.3f); of all %d dots %d\n",
-      seen, listed, static_cast<double>(seen) / listed, static_cast<int>(brightest), stars,
-      static_cast<double>(stars) / static_cast<double>(brightest), static_cast<int>(is_star.size()),
-      static_cast<int>(std::count(is_star.begin(), is_star.end(), true)));
+      "\nphotograph of Longyearbyen: %d of %d listed stars to V 4.5 found (recall %.3f; the list of dots is "
+      "full, its "
+      "faintest has SNR %.1f, %u more candidates);\n  of the %d brightest dots %d are stars of the catalogue "
+      "(precision %.3f); of all %d dots %d\n",
+      seen, listed, static_cast<double>(seen) / listed, static_cast<double>(least), list->dropped,
+      static_cast<int>(brightest), stars, static_cast<double>(stars) / static_cast<double>(brightest),
+      static_cast<int>(is_star.size()), static_cast<int>(std::count(is_star.begin(), is_star.end(), true)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "components/telemetry/log_sink.hpp"
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/mission.hpp"
+#include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/run_summary.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/kernel/clock.hpp"
@@ -29,6 +30,8 @@ struct Arguments {
   bool real_time = false;
   bool no_dds = false;
   bool graph = false;
+  bool dictionary = false;
+  int rounds = 1;
 };
 
 omma::Scheduler* running = nullptr;
@@ -39,13 +42,6 @@ extern "C" void stop_running(int /*signal*/) {
 
 void say(const std::vector<std::string>& sentences) {
   for (const std::string& sentence : sentences) std::fprintf(stderr, "omma-fsw: %s\n", sentence.c_str());
-}
-
-/// Every event this program can raise.
-std::vector<omma::EventDescriptor> events() {
-  std::vector<omma::EventDescriptor> all(omma::kScheduleEvents.begin(), omma::kScheduleEvents.end());
-  all.insert(all.end(), omma::kHealthEvents.begin(), omma::kHealthEvents.end());
-  return all;
 }
 
 void add_sinks(const Arguments& arguments, const omma::Mission& mission, omma::TelemetryOutput& output) {
@@ -60,12 +56,21 @@ void add_sinks(const Arguments& arguments, const omma::Mission& mission, omma::T
   }
 }
 
+/// The wiring as a picture, or all that the program sends as JSON: from the declarations it flies by.
+int describe(const Arguments& arguments) {
+  omma::Topology topology(omma::read_mission(arguments.mission), {.with_cameras = false});
+  const omma::RateGroupTable table = topology.table();
+  const std::string text =
+      arguments.graph ? omma::wiring_graph(table) : omma::program_dictionary(topology, table);
+  return std::puts(text.c_str()) < 0 ? 2 : 0;
+}
+
 int fly(const Arguments& arguments) {
   omma::Mission mission = omma::read_mission(arguments.mission);
   if (!arguments.frames.empty()) mission.recording = arguments.frames;
-  omma::Topology topology(mission, {.lockstep = !arguments.real_time, .workers = arguments.workers});
+  omma::Topology topology(
+      mission, {.lockstep = !arguments.real_time, .workers = arguments.workers, .rounds = arguments.rounds});
   const omma::RateGroupTable table = topology.table();
-  if (arguments.graph) return std::puts(omma::wiring_graph(table).c_str()) < 0 ? 2 : 0;
 
   omma::LockstepClock lockstep;
   omma::MonotonicClock monotonic;
@@ -73,7 +78,7 @@ int fly(const Arguments& arguments) {
   omma::ScheduleEvents observer(topology.events);
   omma::Scheduler scheduler(table, clock, observer);
   topology.health.observe(scheduler);
-  omma::TelemetryOutput output(topology.telemetry, events());
+  omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
   add_sinks(arguments, mission, output);
   lockstep.before_each_tick([&output] { output.wait_for_room(); });
   if (arguments.real_time) say(omma::lock_process_memory());
@@ -109,14 +114,19 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(1, 16));
   app.add_flag("--real-time", arguments.real_time,
                "keep the mission's frame rate; default: as fast as possible, the same every time");
-  app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
+  app.add_option("--rounds", arguments.rounds, "play the recording so many times, one after the other")
+      ->check(CLI::Range(1, 100000));
+  CLI::Option* graph = app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
+  app.add_flag("--dictionary", arguments.dictionary,
+               "print topics, events, rate groups and wiring (JSON) and leave")
+      ->excludes(graph);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    return fly(arguments);
+    return arguments.graph || arguments.dictionary ? describe(arguments) : fly(arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "omma-fsw: %s\n", error.what());
     return 2;

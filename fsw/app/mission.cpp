@@ -1,5 +1,7 @@
 #include "fsw/app/mission.hpp"
 
+#include <algorithm>
+
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/geometry/rig_file.hpp"
@@ -93,6 +95,14 @@ TrackerParameters read_tracker(const TomlTable& table) {
   return p;
 }
 
+// The spacecraft's name is a part of every topic's name.
+bool is_topic_part(const std::string& name) {
+  const auto fits = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' || c == '-';
+  };
+  return !name.empty() && name.size() <= limits::kNameLength && std::all_of(name.begin(), name.end(), fits);
+}
+
 }  // namespace
 
 Mission read_mission(const std::filesystem::path& file) {
@@ -100,8 +110,9 @@ Mission read_mission(const std::filesystem::path& file) {
   Mission mission;
   mission.file = file.string();
   const std::string spacecraft = root.text("spacecraft");
-  if (spacecraft.empty() || spacecraft.size() > limits::kNameLength) {
-    throw root.error("spacecraft", "a name of 1 to " + std::to_string(limits::kNameLength) + " characters",
+  if (!is_topic_part(spacecraft)) {
+    throw root.error("spacecraft",
+                     "a name of 1 to " + std::to_string(limits::kNameLength) + " letters, digits, _ and -",
                      spacecraft);
   }
   mission.spacecraft = Name(spacecraft);

@@ -19,6 +19,12 @@ StarCatalogue star_catalogue(const Mission& mission) {
 std::vector<std::unique_ptr<RecordedCamera>> camera_drivers(const Mission& mission,
                                                             const RunOptions& options) {
   std::vector<std::unique_ptr<RecordedCamera>> drivers;
+  if (!options.with_cameras) return drivers;
+  std::uint64_t round_length = 0;
+  for (const RigCamera& camera : mission.rig.cameras) {
+    const std::string name(camera.name.view());
+    round_length = std::max(round_length, RecordedCamera::last_number_in(mission.recording, name) + 1);
+  }
   for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
     const RigCamera& camera = mission.rig.cameras[c];
     const int bits = mission.cameras[c].bits;
@@ -27,7 +33,9 @@ std::vector<std::unique_ptr<RecordedCamera>> camera_drivers(const Mission& missi
         .width = camera.lens.width(),
         .height = camera.lens.height(),
         .bits = bits > 8 ? 16 : 8,
-        .white_level = static_cast<std::uint16_t>((1 << bits) - 1)};
+        .white_level = static_cast<std::uint16_t>((1 << bits) - 1),
+        .rounds = options.rounds,
+        .round_length = round_length};
     drivers.push_back(
         std::make_unique<RecordedCamera>(mission.recording, std::string(camera.name.view()), recorded));
   }
@@ -36,6 +44,7 @@ std::vector<std::unique_ptr<RecordedCamera>> camera_drivers(const Mission& missi
 
 std::vector<CameraDriver*> pointers(const std::vector<std::unique_ptr<RecordedCamera>>& drivers) {
   std::vector<CameraDriver*> result;
+  result.reserve(drivers.size());
   for (const auto& driver : drivers) result.push_back(driver.get());
   return result;
 }

@@ -27,8 +27,10 @@ namespace omma {
 
 /// How the program runs, as opposed to what it flies.
 struct RunOptions {
-  bool lockstep = true;  ///< replay: time waits for the program
-  int workers = 1;       ///< threads that share the extraction, the caller included
+  bool lockstep = true;      ///< replay: time waits for the program
+  int workers = 1;           ///< threads that share the extraction, the caller included
+  int rounds = 1;            ///< how often a recording is played
+  bool with_cameras = true;  ///< false: no camera is opened; to look at the wiring, not to fly
 };
 
 /// All components of the flight program, wired. Made once, before time starts; nothing in it moves
@@ -40,6 +42,7 @@ class Topology {
   Topology(const Topology&) = delete;
   Topology& operator=(const Topology&) = delete;
 
+  const Mission& mission() const { return mission_; }
   RateGroupTable table();
   /// Frame sets until every recording has been played to its end.
   std::uint64_t frame_sets() const;

@@ -24,9 +24,10 @@ void write_event(JsonText& json, const EventDescriptor& event) {
   json.key("interval_s").number(static_cast<double>(event.interval_ns) * 1e-9).close_object();
 }
 
-void write_channel(JsonText& json, const ChannelDescriptor& channel) {
-  json.open_object().key("id").number(channel.id).key("name").string(channel.name);
-  json.key("unit").string(channel.unit).key("text").string(channel.text).close_object();
+void write_topic(JsonText& json, const TopicDescriptor& topic) {
+  json.open_object().key("name").string(topic.name).key("type").string(topic.type);
+  json.key("reliable").boolean(topic.reliable).key("depth").number(topic.depth);
+  json.key("deadline_s").number(topic.deadline_s).key("measured").boolean(topic.measured).close_object();
 }
 
 void write_group(JsonText& json, const RateGroup& group, std::chrono::nanoseconds base_period) {
@@ -54,17 +55,17 @@ void write_connection(JsonText& json, const Wiring& wiring, const Connection& co
 
 std::string dictionary_json(const Dictionary& dictionary, const RateGroupTable& table) {
   JsonText json;
-  json.open_object().key("program").string(dictionary.program).key("version").string(dictionary.version);
+  json.open_object().key("program").string(dictionary.program);
   json.key("events").open_array();
   for (const EventDescriptor& event : dictionary.events) write_event(json, event);
-  json.close_array().key("channels").open_array();
-  for (const ChannelDescriptor& channel : dictionary.channels) write_channel(json, channel);
+  json.close_array().key("topics").open_array();
+  for (const TopicDescriptor& topic : dictionary.topics) write_topic(json, topic);
   json.close_array().key("rate_groups").open_array();
   for (const RateGroup& group : table.groups) write_group(json, group, table.base_period);
   json.close_array().key("connections").open_array();
   const Wiring wiring = trace_wiring(table);
   for (const Connection& connection : wiring.connections) write_connection(json, wiring, connection);
-  json.close_array().close_object();
+  json.close_array().key("idl").string(dictionary.idl).close_object();
   return json.text();
 }
 

@@ -11,19 +11,21 @@
 
 namespace omma {
 
-/// One number of telemetry that can be watched (plots, limits).
-struct ChannelDescriptor {
-  std::uint16_t id = 0;     ///< unique in the program
-  std::string_view name;    ///< "attitude.residual_rms", unique in the program
-  std::string_view unit{};  ///< empty: a count or an index
-  std::string_view text{};  ///< what it is
+/// A topic of telemetry; its fields are in the IDL.
+struct TopicDescriptor {
+  std::string name;       ///< whole, as it is on the bus
+  std::string_view type;  ///< in the IDL
+  bool reliable = false;  ///< every sample arrives; else the newest matters
+  int depth = 1;          ///< of the history kept, per key
+  double deadline_s = 0;  ///< longest time between two samples; 0: none is promised
+  bool measured = false;  ///< holds measured durations: not the same from run to run
 };
 
 struct Dictionary {
   std::string_view program;
-  std::string_view version;
   std::span<const EventDescriptor> events{};
-  std::span<const ChannelDescriptor> channels{};
+  std::span<const TopicDescriptor> topics{};
+  std::string_view idl{};  ///< the types of all topics, as text
 };
 
 /// @param table  the schedule: rate groups, components and their ports are listed with the rest

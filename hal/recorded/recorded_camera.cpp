@@ -68,12 +68,24 @@ void RecordedCamera::check_headers(const RecordedCameraOptions& options) const {
   }
 }
 
+// Later rounds are the same files under later numbers.
+void RecordedCamera::repeat(const RecordedCameraOptions& options) {
+  const std::size_t once = files_.size();
+  const std::uint64_t length = std::max(options.round_length, files_.back().number + 1);
+  files_.reserve(once * static_cast<std::size_t>(std::max(1, options.rounds)));
+  for (int round = 1; round < options.rounds; ++round) {
+    for (std::size_t i = 0; i < once; ++i)
+      files_.push_back({files_[i].number + static_cast<std::uint64_t>(round) * length, files_[i].path});
+  }
+}
+
 RecordedCamera::RecordedCamera(const std::filesystem::path& top, const std::string& camera,
                                const RecordedCameraOptions& options)
     : files_(find_files(top / camera, camera)),
       playback_(options.playback),
       white_level_(options.white_level) {
   check_headers(options);
+  repeat(options);
   // The first frame is decoded here: a recording that cannot be read at all must fail now. Its size is
   // everyone's.
   const Image first = read_image(files_.front().path);

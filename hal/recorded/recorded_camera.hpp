@@ -29,6 +29,9 @@ struct RecordedCameraOptions {
   int height = 0;  ///< [px]
   int bits = 0;    ///< 8 or 16, the same way
   std::uint16_t white_level = 0;  ///< of the sensor, where the files do not know it; 0: as the files say
+  int rounds = 1;                 ///< how often the recording is played, one time after the other
+  std::uint64_t round_length =
+      0;  ///< frame numbers of one round, the same for all cameras; 0: up to the last
 };
 
 class RecordedCamera final : public CameraDriver {
@@ -51,6 +54,11 @@ class RecordedCamera final : public CameraDriver {
   /// no wait; the only call to the system wakes the reading thread.
   Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept override;
 
+  /// The largest frame number of a recording. @throws InputError as the constructor does for names
+  static std::uint64_t last_number_in(const std::filesystem::path& top, const std::string& camera) {
+    return find_files(top / camera, camera).back().number;
+  }
+
   std::uint64_t first_number() const noexcept { return files_.front().number; }
   std::uint64_t last_number() const noexcept { return files_.back().number; }
   std::size_t frames() const noexcept { return files_.size(); }
@@ -72,6 +80,7 @@ class RecordedCamera final : public CameraDriver {
 
   static std::vector<File> find_files(const std::filesystem::path& folder, const std::string& camera);
   void check_headers(const RecordedCameraOptions& options) const;
+  void repeat(const RecordedCameraOptions& options);
   void read_ahead();
   void fill(Slot& slot, const File& file, std::vector<std::byte>& bytes);
   bool wait_for_free_slot(std::uint32_t filled);

@@ -145,6 +145,21 @@ TEST_F(Recording, InRealTimeTheFirstFramesLieReadyAndGrabDoesNotWait) {
   }
 }
 
+TEST_F(Recording, IsPlayedInRoundsOfTheSameLength) {
+  for (const int n : {0, 2}) add(n, std::to_string(n));  // number 3, the round's last, is another camera's
+  RecordedCamera camera(top_, "cam0", {.rounds = 3, .round_length = 4});
+  EXPECT_EQ(camera.last_number(), 10U);
+  for (std::uint64_t number = 0; number < 12; ++number) {
+    const Frame frame = camera.grab(number, 0);
+    if (number % 4 == 0 || number % 4 == 2) {
+      ASSERT_EQ(frame.status, FrameStatus::kFresh) << number;
+      EXPECT_EQ(frame.image.row<std::uint8_t>(5)[7], number % 4);
+    } else {
+      EXPECT_EQ(frame.status, FrameStatus::kMissing) << number;
+    }
+  }
+}
+
 TEST_F(Recording, TornFrameIsMissingAndCounted) {
   add_many(6);
   std::filesystem::resize_file(top_ / "cam0" / "cam0_3.png", 60);

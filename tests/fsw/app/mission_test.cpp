@@ -7,8 +7,11 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "components/telemetry/topics.hpp"
+#include "fsw/app/program_dictionary.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/image_file.hpp"
 
@@ -92,6 +95,36 @@ TEST_F(MissionFile, WithAnEpochThatIsNoTimeIsRefused) {
   replace("demo.toml", "epoch = \"2026", "epoch = \"spring 2026");
   EXPECT_THAT(message(),
               HasSubstr("epoch: expected a UTC time like 2026-03-20T12:00:00Z, found spring 2026"));
+}
+
+TEST_F(MissionFile, WithASpacecraftNameThatNoTopicCanHaveIsRefused) {
+  for (const std::string name :
+       {"two words", "a/b", "", "caf\u00e9", "longer-than-the-thirty-one-characters"}) {
+    SetUp();
+    replace("demo.toml", "spacecraft = \"demo\"", "spacecraft = \"" + name + "\"");
+    EXPECT_THAT(message(),
+                HasSubstr("spacecraft: expected a name of 1 to 31 letters, digits, _ and -, found"));
+  }
+}
+
+TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
+  replace("demo.toml", "spacecraft = \"demo\"", "spacecraft = \"cubesat-1\"");
+  const auto told = [&](const std::string& option) {
+    const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() + option +
+                                " > " + (folder_ / "said").string();
+    EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
+    std::ostringstream said;
+    said << std::ifstream(folder_ / "said").rdbuf();
+    return said.str();
+  };
+  EXPECT_THAT(told(" --graph"), HasSubstr("digraph wiring"));
+  const auto dictionary = nlohmann::json::parse(told(" --dictionary"));
+  EXPECT_EQ(dictionary.at("program"), "omma-fsw");
+  EXPECT_EQ(dictionary.at("topics").size(), telemetry::kTopicCount);
+  EXPECT_EQ(dictionary.at("topics").at(2).at("name"), "omma/cubesat-1/attitude");
+  EXPECT_EQ(dictionary.at("events").size(), kEvents.size());
+  EXPECT_EQ(dictionary.at("rate_groups").at(0).at("components").size(), 8U);
+  EXPECT_THAT(dictionary.at("idl").get<std::string>(), HasSubstr("struct Attitude"));
 }
 
 TEST_F(MissionFile, WithAnUnknownDriverIsRefused) {

@@ -107,22 +107,23 @@ TEST(Dictionary, ListsEventsGroupsAndConnections) {
   testing::Source source;
   testing::Sink sink;
   sink.number.bind(source.number);
-  constexpr std::array kChannels{
-      ChannelDescriptor{.id = 1, .name = "sink.rate", .unit = "rad/s", .text = "say \"rate\""}};
+  const std::array topics{TopicDescriptor{.name = "omma/p/sink", .type = "omma::Sink", .deadline_s = 2}};
   const std::string json = dictionary_json(
-      {.program = "p", .version = "1", .events = kAllEvents, .channels = kChannels},
+      {.program = "p", .events = kAllEvents, .topics = topics, .idl = "say \"rate\""},
       {.base_period = 5ms, .groups = {{.name = "g", .divisor = 2, .components = {{source, 1ms}, {sink}}}}});
-  EXPECT_THAT(json, HasSubstr(R"({"program":"p","version":"1","events":[{"id":1,"name":"beats_missed",)"));
+  EXPECT_THAT(json, HasSubstr(R"({"program":"p","events":[{"id":1,"name":"beats_missed",)"));
   EXPECT_THAT(json, HasSubstr(R"("values":[{"name":"group","unit":""},{"name":"count","unit":""},)"));
   EXPECT_THAT(json,
-              HasSubstr(R"("channels":[{"id":1,"name":"sink.rate","unit":"rad/s","text":"say \"rate\""}])"));
+              HasSubstr(R"("topics":[{"name":"omma/p/sink","type":"omma::Sink","reliable":false,"depth":1,)"
+                        R"("deadline_s":2,"measured":false}])"));
+  EXPECT_THAT(json, HasSubstr(R"("idl":"say \"rate\"")"));
   EXPECT_THAT(
       json,
       HasSubstr(
           R"({"name":"g","period_s":0.01,"offset_s":0,"priority":0,"components":[{"name":"source","budget_s":0.001)"));
   EXPECT_THAT(
       json,
-      HasSubstr(R"([{"from":"source.number","to":"sink.number","by":"reference","previous_tick":false}]})"));
+      HasSubstr(R"([{"from":"source.number","to":"sink.number","by":"reference","previous_tick":false}])"));
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ constexpr double kModelError = 0.002;  // what no model of a real spot is better
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
 constexpr double kSecondOrder = 11;
+constexpr double kStretched =
+    0.3;  // excess of the long axis's variance from which a trail is tried [variance]
+constexpr double kTrailGain = 15;        // by which a trail's χ² must be smaller
 constexpr int kLeastPixels = 12;         // of a window
 constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
 // Of one image at most so many dots are measured: the best of them are handed over.
@@ -43,6 +46,11 @@ double width_of(const Candidate& candidate) {
 // Square root of the sum of squares; std::hypot is not the same on every machine.
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
+}
+
+bool is_elongated(const SpotFit& fit) {
+  const double stretch = length(fit.stretch, fit.skew);
+  return stretch > 3 * fit.shape_error && stretch > kStretched * fit.sigma * fit.sigma;
 }
 
 // Standard deviation of a blob's pixels, were it an even disc [px].
@@ -161,28 +169,70 @@ bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
 
 bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept {
   dot = Dot{};
-  if (!fit_point(candidate, self) || fit_.sigma > parameters_->max_point_sigma) return false;
-  dot.snr = static_cast<float>(fit_.flux * std::sqrt(fit_.flux_information));
-  if (!(dot.snr >= parameters_->min_snr)) return false;
-  dot.pixel = {fit_.u, fit_.v};
-  // A real spot is no Gaussian: where the pixels say so, the covariance grows with their χ².
-  const double significant = 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
-  const double misfit = fit_.chi2_per_pixel > significant ? fit_.chi2_per_pixel : 1;
-  const double threshold = 1 + kSecondOrder / (static_cast<double>(dot.snr) * dot.snr);
-  dot.covariance =
-      misfit * threshold * fit_.covariance + kModelError * kModelError * Eigen::Matrix2d::Identity();
-  dot.flux = static_cast<float>(fit_.flux);
+  if (!fit_point(candidate, self)) return false;
   const double stretch = length(fit_.stretch, fit_.skew);
   const double sigma2 = fit_.sigma * fit_.sigma;
+  const bool elongated = is_elongated(fit_);
+  dot.snr = static_cast<float>(fit_.flux * std::sqrt(fit_.flux_information));
+  if (trails_ && elongated && !(dot.snr < parameters_->min_snr) && try_trail(candidate, self, dot))
+    return true;
+  if (fit_.sigma > parameters_->max_point_sigma || !(dot.snr >= parameters_->min_snr)) return false;
+  dot.pixel = {fit_.u, fit_.v};
+  dot.covariance = grown(fit_.covariance, fit_.chi2_per_pixel, dot.snr);
+  dot.flux = static_cast<float>(fit_.flux);
   dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
   dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
-  if (stretch > 3 * fit_.shape_error && dot.sigma_major > parameters_->elongation * dot.sigma_minor)
-    dot.flags |= kDotElongated;
+  if (elongated && dot.sigma_major > parameters_->elongation * dot.sigma_minor) dot.flags |= kDotElongated;
   if (candidate.saturated == 0 && is_hot_pixel(candidate)) {
     dot.flags |= kDotHotPixel;
     if (!parameters_->keep_hot_pixels) return false;
   }
   return true;
+}
+
+// A trail, where it explains the pixels better than the round spot does. Leaves fit_ as its neighbours see
+// it.
+bool DotMeasurement::try_trail(const Candidate& candidate, std::size_t self, Dot& dot) noexcept {
+  const PixelNoise& noise = candidate.noise;
+  const double variance = static_cast<double>(noise.sigma) * noise.sigma;
+  const SpotFit before = fit_;
+  const double reach = 2 * std::sqrt(fit_.sigma * fit_.sigma + length(fit_.stretch, fit_.skew)) + 3;
+  load(fit_.u, fit_.v, std::clamp(static_cast<int>(std::ceil(reach)), 4, SpotWindow::kRows / 2));
+  field_.take_away(self, noise.sigma, window_);
+  trail_ = TrailFit{};
+  start_trail(window_, noise.sigma, trail_);
+  fit_trail(window_, variance, noise.gain, prior_.background_error, trail_);
+  fit_spot(window_, variance, noise.gain, prior_, fit_);
+  const int freedom = std::max(1, window_.counted - 7);
+  const double round_chi2 = fit_.chi2_per_pixel * std::max(1, window_.counted - 5);
+  const bool better = trail_.usable && (!fit_.usable || trail_.chi2 + kTrailGain < round_chi2) &&
+                      trail_.sigma < static_cast<double>(parameters_->max_point_sigma) &&
+                      length(trail_.u - before.u, trail_.v - before.v) < 2 + before.sigma;
+  fit_ = before;
+  const double snr = trail_.flux * std::sqrt(trail_.flux_information);
+  if (!better || !(snr >= static_cast<double>(parameters_->min_snr))) return false;
+  dot.snr = static_cast<float>(snr);
+  dot.pixel = {trail_.u, trail_.v};
+  dot.covariance = grown(trail_.covariance, trail_.chi2 / freedom, dot.snr);
+  dot.flux = static_cast<float>(trail_.flux);
+  const double own = std::max(0.04, trail_.sigma * trail_.sigma - 1.0 / 12);  // without the pixel's width
+  dot.sigma_minor = static_cast<float>(std::sqrt(own));
+  dot.sigma_major = static_cast<float>(std::sqrt(own + trail_.length * trail_.length / 12));
+  if (dot.sigma_major > parameters_->elongation * dot.sigma_minor) dot.flags |= kDotElongated;
+  fit_.u = trail_.u;
+  fit_.v = trail_.v;
+  fit_.sigma = static_cast<double>(dot.sigma_major);
+  fit_.flux = trail_.flux;
+  return true;
+}
+
+// A real spot is no Gaussian: where the pixels say so, the covariance grows with their χ².
+Eigen::Matrix2d DotMeasurement::grown(const Eigen::Matrix2d& covariance, double chi2_per_pixel,
+                                      float snr) const noexcept {
+  const double significant = 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
+  const double misfit = chi2_per_pixel > significant ? chi2_per_pixel : 1;
+  const double threshold = 1 + kSecondOrder / (static_cast<double>(snr) * static_cast<double>(snr));
+  return misfit * threshold * covariance + kModelError * kModelError * Eigen::Matrix2d::Identity();
 }
 
 bool DotMeasurement::may_be_point(const Candidate& candidate) const noexcept {
@@ -222,6 +272,7 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   prior_.sigma = 1.0F;
   prior_.sigma_error = 0.7F;
   // Some from all: the very brightest may be something else than stars.
+  std::size_t elongated = 0;
   const std::size_t stride = std::max<std::size_t>(1, candidates.size() / (2 * kSample));
   for (std::size_t i = 0; i < candidates.size() && widths_.size() < kSample; i += stride) {
     const Candidate& candidate = candidates[i];
@@ -232,7 +283,10 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
     if (fit_.sigma < parameters_->min_sigma || fit_.sigma > parameters_->max_point_sigma) continue;
     if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) continue;
     widths_.push_back(static_cast<float>(fit_.sigma));
+    elongated += is_elongated(fit_) ? 1 : 0;
   }
+  // One long spot may be two stars; when most are long, the camera moved.
+  trails_ = 2 * elongated > widths_.size();
   if (widths_.size() < kEnough) return;
   const auto median = [&] {
     const auto middle = widths_.begin() + static_cast<std::ptrdiff_t>(widths_.size() / 2);

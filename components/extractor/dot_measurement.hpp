@@ -12,6 +12,7 @@
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/extractor/spot_field.hpp"
 #include "components/extractor/spot_fit.hpp"
+#include "components/extractor/trail_fit.hpp"
 #include "hal/image.hpp"
 
 namespace omma {
@@ -33,6 +34,8 @@ class DotMeasurement {
 
  private:
   void learn_width(const std::vector<Candidate>& candidates) noexcept;
+  Eigen::Matrix2d grown(const Eigen::Matrix2d& covariance, double chi2_per_pixel, float snr) const noexcept;
+  bool try_trail(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool may_be_point(const Candidate& candidate) const noexcept;
   bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
@@ -52,9 +55,11 @@ class DotMeasurement {
   float background_ = 0;  // of the candidate at hand
   SpotWindow window_;
   SpotFit fit_;
+  TrailFit trail_;
   bool crowded_ = false;  // light of a neighbour was in the window
   SpotPrior prior_;
   bool width_known_ = false;
+  bool trails_ = false;      // most spots of the image are long
   double least_beside_ = 0;  // light of a neighbour over that of the brightest pixel, of the narrowest spot
   SpotField field_;          // one spot a candidate
   std::vector<int> dot_of_spot_;  // −1: none

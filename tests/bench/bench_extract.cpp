@@ -80,6 +80,38 @@ void accuracy(const Kind& kind, int dots) {
   std::printf("  mean NEES of the mixed rows: %.3f over %d dots (2 is honest)\n", all.mean_nees(), all.found);
 }
 
+// Stars drawn out by the camera's motion.
+void trails(int dots) {
+  std::printf(
+      "\ntrails, 8 bits, background noise of 2 grey levels, spots of 0.8 px\n  %6s %5s  %7s %8s  %8s %8s %6s "
+      " %6s\n",
+      "length", "SNR", "recall", "false", "rms px", "bound", "ratio", "NEES");
+  for (const double length : {1.0, 2.0, 4.0, 8.0, 16.0}) {
+    for (const double snr : {15.0, 40.0}) {
+      SpotScene scene;
+      DotExtractor extractor(scene.width, scene.height);
+      ExtractorParameters parameters;
+      parameters.gain = 1e6F;
+      auto list = std::make_unique<DotList>();
+      std::mt19937_64 random(static_cast<std::uint64_t>(100 * length + snr));
+      SpotScore score;
+      int images = 0;
+      for (; score.spots < dots; ++images) {
+        scene.spots = grid_of_spots(scene, 48, 0.8, snr, random);
+        for (MadeSpot& spot : scene.spots) spot.trail = length * Eigen::Vector2d(0.8, 0.6);
+        const Image image = render(scene, random);
+        extractor.extract(image.view(), parameters, *list);
+        score.add(scene, list->dots);
+      }
+      std::printf("  %6.0f %5.0f  %7.4f %8.2f  %8.4f %8.4f %6.3f  %6.2f\n", length, snr,
+                  static_cast<double>(score.found) / score.spots,
+                  static_cast<double>(score.false_dots) / images, score.rms(),
+                  std::sqrt(score.squared_bound / (2 * std::max(1, score.found))), score.ratio(),
+                  score.mean_nees());
+    }
+  }
+}
+
 void time_of(const char* name, int count, double sigma, int repeats) {
   SpotScene scene;
   std::mt19937_64 random(7);
@@ -216,6 +248,7 @@ int bench_extract(int argc, char** argv) {
   time_of_stages(repeats);
   real_photograph();
   if (dots == 0) return 0;
+  trails(std::min(dots, 2000));
   const int only = option(argc, argv, "--sensor", 0);
   for (int k = 1; const Kind& kind : kKinds)
     if (const int number = k++; only == 0 || only == number) accuracy(kind, dots);

@@ -21,18 +21,36 @@ Share share(double x, double u, double sigma) {
   return {0.5 * (std::erf(b / M_SQRT2) - std::erf(a / M_SQRT2)), (density(a) - density(b)) / sigma};
 }
 
+// Calls visit(u, v, share of the light, its derivatives by u and by v) for the pixels a spot reaches; a trail
+// is so many spots in a row.
 template <class Visit>
 void for_pixels(const SpotScene& scene, const MadeSpot& spot, Visit&& visit) {
-  const int radius = static_cast<int>(std::ceil(5 * spot.sigma)) + 1;
+  const int pieces = 1 + static_cast<int>(std::ceil(2 * spot.trail.norm() / spot.sigma));
+  const int radius = static_cast<int>(std::ceil(5 * spot.sigma + 0.5 * spot.trail.norm())) + 1;
   const int u0 = static_cast<int>(std::lround(spot.pixel.x()));
   const int v0 = static_cast<int>(std::lround(spot.pixel.y()));
-  std::vector<Share> along_u;
-  for (int u = u0 - radius; u <= u0 + radius; ++u) along_u.push_back(share(u, spot.pixel.x(), spot.sigma));
+  const auto shares = [&](int axis, int middle) {
+    std::vector<std::vector<Share>> of_piece(static_cast<std::size_t>(pieces));
+    for (int k = 0; k < pieces; ++k) {
+      const double place = spot.pixel[axis] + spot.trail[axis] * ((k + 0.5) / pieces - 0.5);
+      for (int x = middle - radius; x <= middle + radius; ++x)
+        of_piece[static_cast<std::size_t>(k)].push_back(share(x, place, spot.sigma));
+    }
+    return of_piece;
+  };
+  const auto along_u = shares(0, u0);
+  const auto along_v = shares(1, v0);
   for (int v = std::max(0, v0 - radius); v <= std::min(scene.height - 1, v0 + radius); ++v) {
-    const Share by_v = share(v, spot.pixel.y(), spot.sigma);
     for (int u = std::max(0, u0 - radius); u <= std::min(scene.width - 1, u0 + radius); ++u) {
-      const Share& by_u = along_u[static_cast<std::size_t>(u - u0 + radius)];
-      visit(u, v, by_u.value * by_v.value, by_u.slope * by_v.value, by_u.value * by_v.slope);
+      double value = 0, slope_u = 0, slope_v = 0;
+      for (std::size_t k = 0; k < along_u.size(); ++k) {
+        const Share& by_u = along_u[k][static_cast<std::size_t>(u - u0 + radius)];
+        const Share& by_v = along_v[k][static_cast<std::size_t>(v - v0 + radius)];
+        value += by_u.value * by_v.value / pieces;
+        slope_u += by_u.slope * by_v.value / pieces;
+        slope_v += by_u.value * by_v.slope / pieces;
+      }
+      visit(u, v, value, slope_u, slope_v);
     }
   }
 }
@@ -40,7 +58,7 @@ void for_pixels(const SpotScene& scene, const MadeSpot& spot, Visit&& visit) {
 // Information about the flux and about the centre of a spot of so much light.
 void weigh(const SpotScene& scene, MadeSpot& spot, double& flux_information) {
   flux_information = 0;
-  spot.information = 0;
+  spot.information.setZero();
   for_pixels(scene, spot, [&](int u, int /*v*/, double value, double by_u, double by_v) {
     const double light = spot.flux * value;
     if (scene.background + scene.slope * u + light >= scene.white_level)
@@ -48,7 +66,9 @@ void weigh(const SpotScene& scene, MadeSpot& spot, double& flux_information) {
     const double variance =
         scene.noise * scene.noise + kRoundingVariance + (scene.gain > 0 ? light / scene.gain : 0);
     flux_information += value * value / variance;
-    spot.information += 0.5 * spot.flux * spot.flux * (by_u * by_u + by_v * by_v) / variance;
+    Eigen::Vector2d slope(by_u, by_v);
+    slope *= spot.flux;
+    spot.information += slope * slope.transpose() / variance;
   });
 }
 
@@ -163,7 +183,7 @@ void SpotScore::add(const SpotScene& scene, std::span<const Dot> dots) {
     ++found;
     const Eigen::Vector2d error = dots[nearest].pixel - spot.pixel;
     squared_error += error.squaredNorm();
-    squared_bound += 2 / spot.information;
+    squared_bound += spot.information.inverse().trace();
     nees += error.dot(dots[nearest].covariance.inverse() * error);
     for (int axis = 0; axis < 2; ++axis) {
       const double phase = spot.pixel[axis] + 0.5 - std::floor(spot.pixel[axis] + 0.5);

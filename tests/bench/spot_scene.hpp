@@ -17,10 +17,11 @@ namespace omma {
 /// A spot as it is made: a Gaussian integrated over square pixels.
 struct MadeSpot {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-  double sigma = 1;        ///< before integration over the pixel [px]
-  double snr = 10;         ///< flux over its smallest possible deviation; 0: `flux` is given
-  double flux = 0;         ///< [grey levels], set by render where snr is given
-  double information = 0;  ///< of one coordinate of the centre, both alike on average [px⁻²], set by render
+  double sigma = 1;  ///< before integration over the pixel [px]
+  double snr = 10;   ///< flux over its smallest possible deviation; 0: `flux` is given
+  double flux = 0;   ///< [grey levels], set by render where snr is given
+  Eigen::Vector2d trail = Eigen::Vector2d::Zero();        ///< from its beginning to its end [px]
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< of the centre [px⁻²], set by render
 };
 
 struct SpotScene {

@@ -71,6 +71,33 @@ TEST(Spots, OfBrightAndOfDarkDotsMirrorEachOther) {
   EXPECT_LT(dark.ratio(), 1.15);
 }
 
+TEST(Spots, DrawnOutByMotionAreAtTheBoundToo) {
+  SpotScene scene;
+  scene.width = 640;
+  scene.height = 480;
+  DotExtractor extractor(scene.width, scene.height);
+  ExtractorParameters parameters;
+  parameters.gain = 1e6F;
+  auto list = std::make_unique<DotList>();
+  std::mt19937_64 random(5);
+  for (const double length : {4.0, 9.0}) {
+    SpotScore score;
+    for (int k = 0; k < 2; ++k) {
+      scene.spots = grid_of_spots(scene, 48, 0.8, 40, random);
+      for (MadeSpot& spot : scene.spots) spot.trail = length * Eigen::Vector2d(-0.6, 0.8);
+      const Image image = render(scene, random);
+      extractor.extract(image.view(), parameters, *list);
+      for (const Dot& dot : list->dots) EXPECT_TRUE(dot.flags & kDotElongated || length < 5);
+      score.add(scene, list->dots);
+    }
+    EXPECT_EQ(score.found, score.spots) << length;
+    EXPECT_LE(score.false_dots, 1) << length;
+    EXPECT_LT(score.ratio(), 1.15) << length;
+    EXPECT_GT(score.mean_nees(), 1.5) << length;
+    EXPECT_LT(score.mean_nees(), 2.6) << length;
+  }
+}
+
 TEST(Spots, ThatClipAreMeasuredOnTheirFlanks) {
   SpotScene scene;
   scene.width = 640;

@@ -7,6 +7,7 @@
 
 #include "components/telemetry/cdr.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "ground/compare/tolerance.hpp"
 #include "ground/idl/cdr_values.hpp"
 #include "ground/mcap/mcap_reader.hpp"
 
@@ -68,13 +69,85 @@ std::string sample_difference(const mcap::Reader& reader_a, const mcap::Reader& 
   return place + ": " + field_difference(*leaves_a, *leaves_b);
 }
 
-TopicComparison compare_topic(mcap::Reader& reader_a, mcap::Reader& reader_b, const std::string& topic) {
-  const std::vector<Bytes> a = samples_of(reader_a, topic);
-  const std::vector<Bytes> b = samples_of(reader_b, topic);
-  TopicComparison result{
-      .topic = topic, .samples_a = a.size(), .samples_b = b.size(), .first_difference = {}};
+/// The samples of one topic by the file's own description; the schema is parsed once.
+class TopicReader {
+ public:
+  TopicReader(const mcap::Reader& reader, const std::string& topic) {
+    for (const auto& [id, channel] : reader.channels()) {
+      const auto schema = reader.schemas().find(channel.schema);
+      if (last_part(channel.topic) != topic || schema == reader.schemas().end()) continue;
+      if (channel.encoding != "cdr" || schema->second.encoding != "omgidl") continue;
+      schema_ = idl::parse(schema->second.text, reader.path());
+      const auto type = schema_.structs.find(schema->second.name);
+      if (type == schema_.structs.end()) continue;
+      type_ = &type->second;
+      return;
+    }
+  }
+  std::optional<std::vector<idl::Leaf>> leaves(const Bytes& sample) const {
+    if (type_ == nullptr) return std::nullopt;
+    return idl::leaves(schema_, *type_, sample);
+  }
+
+ private:
+  idl::Schema schema_;
+  const idl::Struct* type_ = nullptr;
+};
+
+// Samples whose bytes differ are read, their fields' magnitudes gathered, and then each difference judged.
+void judge(const mcap::Reader& reader_a, const mcap::Reader& reader_b, const std::vector<Bytes>& a,
+           const std::vector<Bytes>& b, const Tolerance& tolerance, TopicComparison& result) {
+  const TopicReader topic_a(reader_a, result.topic);
+  const TopicReader topic_b(reader_b, result.topic);
+  FieldJudge fields(tolerance, result.topic);
+  struct Pair {
+    std::size_t index;
+    std::vector<idl::Leaf> a;
+    std::vector<idl::Leaf> b;
+  };
+  std::vector<Pair> pairs;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     if (a[i] == b[i]) continue;
+    const auto leaves_a = topic_a.leaves(a[i]);
+    const auto leaves_b = topic_b.leaves(b[i]);
+    if (!leaves_a || !leaves_b) {
+      ++result.different;
+      if (result.first_difference.empty())
+        result.first_difference = sample_difference(reader_a, reader_b, result.topic, i, a[i], b[i]);
+      continue;
+    }
+    fields.measure(*leaves_a);
+    fields.measure(*leaves_b);
+    pairs.push_back({i, *leaves_a, *leaves_b});
+  }
+  for (const Pair& pair : pairs) {
+    const std::string difference = fields.difference(pair.a, pair.b);
+    if (difference.empty()) {
+      ++result.tolerated;
+      continue;
+    }
+    ++result.different;
+    if (!result.first_difference.empty()) continue;
+    telemetry::SampleHead head;
+    result.first_difference = "sample " + std::to_string(pair.index + 1);
+    if (telemetry::read_head(a[pair.index], head))
+      result.first_difference += " (frame " + std::to_string(head.frame) + ")";
+    result.first_difference += ": " + difference;
+  }
+  result.largest = fields.largest();
+}
+
+TopicComparison compare_topic(mcap::Reader& reader_a, mcap::Reader& reader_b, const std::string& topic,
+                              const Tolerance* tolerance) {
+  const std::vector<Bytes> a = samples_of(reader_a, topic);
+  const std::vector<Bytes> b = samples_of(reader_b, topic);
+  TopicComparison result;
+  result.topic = topic;
+  result.samples_a = a.size();
+  result.samples_b = b.size();
+  if (tolerance != nullptr) judge(reader_a, reader_b, a, b, *tolerance, result);
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    if (tolerance != nullptr || a[i] == b[i]) continue;
     if (result.different++ == 0)
       result.first_difference = sample_difference(reader_a, reader_b, topic, i, a[i], b[i]);
   }
@@ -86,7 +159,8 @@ TopicComparison compare_topic(mcap::Reader& reader_a, mcap::Reader& reader_b, co
 
 }  // namespace
 
-std::vector<TopicComparison> compare_recordings(const std::string& path_a, const std::string& path_b) {
+std::vector<TopicComparison> compare_recordings(const std::string& path_a, const std::string& path_b,
+                                                const Tolerance* tolerance) {
   mcap::Reader reader_a(path_a);
   mcap::Reader reader_b(path_b);
   std::set<std::string> topics;
@@ -97,7 +171,8 @@ std::vector<TopicComparison> compare_recordings(const std::string& path_a, const
   }
   std::vector<TopicComparison> result;
   result.reserve(topics.size());
-  for (const std::string& topic : topics) result.push_back(compare_topic(reader_a, reader_b, topic));
+  for (const std::string& topic : topics)
+    result.push_back(compare_topic(reader_a, reader_b, topic, tolerance));
   return result;
 }
 

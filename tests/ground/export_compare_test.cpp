@@ -177,5 +177,56 @@ TEST_F(ExportCompare, BadInputIsOneSentenceAndExitCodeTwo) {
   EXPECT_EQ(test::run_omma("export " + path("a.mcap") + " --out /dev/null/csv").exit_code, 2);
 }
 
+TEST_F(ExportCompare, ANumberThatDiffersWithinTheToleranceIsTolerated) {
+  write_attitudes(path("a.mcap"), 5);
+  {
+    telemetry::RecordingWriter recording(path("b.mcap"), "testsat", false);
+    telemetry::CdrWriter cdr;
+    for (int i = 0; i < 5; ++i) {
+      omma_Attitude sample = test::attitude_sample(i);
+      sample.chi2 *= 1 + 1e-9;
+      recording.write(TopicId::kAttitude, cdr.write(TopicId::kAttitude, &sample));
+    }
+  }
+  const std::string files = path("a.mcap") + " " + path("b.mcap");
+  EXPECT_EQ(test::run_omma("compare " + files).exit_code, 1);
+  const test::ProgramRun near = test::run_omma("compare " + files + " --tolerance 1e-6");
+  EXPECT_EQ(near.exit_code, 0) << near.output;
+  EXPECT_NE(near.output.find("the same within the tolerance"), std::string::npos) << near.output;
+  EXPECT_NE(near.output.find("largest: "), std::string::npos) << near.output;
+  const test::ProgramRun strict = test::run_omma("compare " + files + " --tolerance 1e-12");
+  EXPECT_EQ(strict.exit_code, 1);
+  EXPECT_NE(strict.output.find("chi2"), std::string::npos) << strict.output;
+  EXPECT_EQ(test::run_omma("compare " + files + " --tolerance attitude.chi2=1").exit_code, 0);
+  EXPECT_EQ(test::run_omma("compare " + files + " --tolerance attitude.stars=1").exit_code, 1);
+}
+
+TEST_F(ExportCompare, AWholeNumberIsToBeTheSameUnlessNamed) {
+  write_attitudes(path("a.mcap"), 3);
+  {
+    telemetry::RecordingWriter recording(path("b.mcap"), "testsat", false);
+    telemetry::CdrWriter cdr;
+    for (int i = 0; i < 3; ++i) {
+      omma_Attitude sample = test::attitude_sample(i);
+      if (i == 1) ++sample.stars_used;
+      recording.write(TopicId::kAttitude, cdr.write(TopicId::kAttitude, &sample));
+    }
+  }
+  const std::string files = path("a.mcap") + " " + path("b.mcap");
+  EXPECT_EQ(test::run_omma("compare " + files + " --tolerance 0.5").exit_code, 1);
+  EXPECT_EQ(test::run_omma("compare " + files + " --tolerance attitude.stars_used=1").exit_code, 0);
+}
+
+TEST_F(ExportCompare, AToleranceThatIsNoneIsRefused) {
+  write_attitudes(path("a.mcap"), 1);
+  for (const std::string wrong : {"much", "-1", "=1", "attitude.chi2=x"}) {
+    const test::ProgramRun run =
+        test::run_omma("compare " + path("a.mcap") + " " + path("a.mcap") + " --tolerance=" + wrong);
+    EXPECT_EQ(run.exit_code, 2) << wrong;
+    EXPECT_NE(run.output.find("--tolerance: expected a number, or FIELD=NUMBER"), std::string::npos)
+        << run.output;
+  }
+}
+
 }  // namespace
 }  // namespace omma::ground

@@ -7,7 +7,8 @@ namespace omma::ground {
 
 void add_calibrate(CLI::App& app, CommandContext& context);
 
-/// `omma calibrate sky`, below `omma calibrate`.
+/// The subcommands, below `omma calibrate`.
+void add_calibrate_lens(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_sky(CLI::App& calibrate, CommandContext& context);
 
 }  // namespace omma::ground

@@ -38,6 +38,12 @@ std::optional<Lens> ocam(const LensShape& shape) {
   return Lens::ocam(shape.width, shape.height, {p[0], p[1]}, affine, polynomial);
 }
 
+std::optional<Lens> caltech(const LensShape& shape) {
+  const Eigen::VectorXd& p = shape.parameters;
+  return Lens::caltech(shape.width, shape.height, {p[2], p[2] * p[3]}, {p[0], p[1]}, p[4],
+                       {p[5], p[6], p[7], p[8], p[9]});
+}
+
 // Radius on the model's plane against angle off axis, as the lens has it.
 std::vector<Eigen::Vector2d> radius_over_angle(const Lens& lens, double max_angle) {
   std::vector<Eigen::Vector2d> pairs;
@@ -125,6 +131,16 @@ std::string ocam_text(const Lens& lens) {
   return text + format("\n\n#image size: \"height\" and \"width\"\n\n%d %d\n", lens.height(), lens.width());
 }
 
+std::string bouguet_text(const Lens& lens) {
+  const auto& k = lens.caltech_model()->coefficients();
+  const Eigen::Matrix2d a = lens.affine();
+  return format("fc = [ %.12f ; %.12f ];\ncc = [ %.9f ; %.9f ];\n", a(0, 0), a(1, 1), lens.centre().x(),
+                lens.centre().y()) +
+         format("alpha_c = %.15e;\nkc = [ %.15e ; %.15e ; %.15e ; %.15e ; %.15e ];\n", a(0, 1) / a(0, 0),
+                k[0], k[1], k[2], k[3], k[4]) +
+         format("nx = %d;\nny = %d;\n", lens.width(), lens.height());
+}
+
 std::string kalibr_text(const Lens& lens) {
   const auto& k = lens.kannala_brandt_model()->coefficients();
   return "cam0:\n  camera_model: pinhole\n  distortion_model: equidistant\n" +
@@ -138,6 +154,7 @@ std::string kalibr_text(const Lens& lens) {
 
 std::optional<Lens> LensShape::lens() const {
   try {
+    if (model == LensModel::kCaltech) return caltech(*this);
     return model == LensModel::kOcam ? ocam(*this) : kannala_brandt(*this);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
@@ -147,6 +164,8 @@ std::optional<Lens> LensShape::lens() const {
 std::vector<std::string> LensShape::names() const {
   if (model == LensModel::kKannalaBrandt)
     return {"centre_u", "centre_v", "f", "aspect", "k1", "k2", "k3", "k4"};
+  if (model == LensModel::kCaltech)
+    return {"centre_u", "centre_v", "f", "aspect", "skew", "k1", "k2", "p1", "p2", "k3"};
   std::vector<std::string> all{"centre_u", "centre_v", "aspect", "skew"};
   for (int k = 0; k < kEvenPowers; ++k) all.push_back(format("a%d", 2 * k));
   return all;
@@ -155,7 +174,7 @@ std::vector<std::string> LensShape::names() const {
 Eigen::VectorXd LensShape::steps() const {
   Eigen::VectorXd step = Eigen::VectorXd::Constant(parameters.size(), 1e-6);
   step[0] = step[1] = 1e-3;
-  if (model == LensModel::kKannalaBrandt) step[2] = 1e-3;
+  if (model != LensModel::kOcam) step[2] = 1e-3;
   return step;
 }
 
@@ -167,6 +186,13 @@ LensShape equidistant_shape(int width, int height, double focal, double max_angl
 
 LensShape nearest_shape(const Lens& lens, LensModel model, double max_angle) {
   LensShape shape{model, lens.width(), lens.height(), max_angle, {}};
+  if (model == LensModel::kCaltech) {
+    // A pinhole of the focal length on the axis: its distortion is for the adjustment to find.
+    const double focal = 1 / lens.pixel_angle();
+    shape.parameters = Eigen::VectorXd::Zero(10);
+    shape.parameters.head<4>() << lens.centre(), focal, 1.0;
+    return shape;
+  }
   const std::vector<Eigen::Vector2d> pairs = radius_over_angle(lens, max_angle);
   const double scale = plane_scale(lens);
   const Eigen::Matrix2d affine = lens.affine() / scale;
@@ -186,7 +212,7 @@ LensShape nearest_shape(const Lens& lens, LensModel model, double max_angle) {
 std::string lens_file_text(const Lens& lens) {
   if (lens.model() == LensModel::kOcam) return ocam_text(lens);
   if (lens.model() == LensModel::kKannalaBrandt) return kalibr_text(lens);
-  throw std::invalid_argument("no file format for this lens model");
+  return bouguet_text(lens);
 }
 
 }  // namespace omma::ground

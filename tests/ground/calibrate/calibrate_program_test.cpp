@@ -68,5 +68,66 @@ TEST(CalibrateSky, RefusesWhatMakesNoSense) {
   refused("sky cam9=a.png --rig " + rig, "camera: expected a camera of the rig");
 }
 
+const fs::path kBoards = fs::path(OMMA_SHARED_DATA) / "data/calibration/images";
+
+TEST(CalibrateLens, BeatsTheFigureOfOpenCvOnRealCornersAndOnViewsKeptApart) {
+  if (!fs::exists(kBoards)) GTEST_SKIP() << "no " << kBoards;
+  const OperatorsFolder folder;
+  const std::string set = (kBoards / "babelcalib_ov_plane").string();
+  const Told told = folder.omma("calibrate lens " + set + "/train/*.orpc --board-file " + set +
+                                "/ov_plane.dsc --test " + set + "/test/*.orpc --json --output lens");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto json = nlohmann::json::parse(told.out);
+  EXPECT_LT(json["rms_px"].get<double>(), 0.500);
+  EXPECT_LT(json["test"]["rms_px"].get<double>(), 0.500);
+  EXPECT_EQ(json["views"].size(), 18U);
+  EXPECT_THAT(folder.read("lens/camchain.yaml"), HasSubstr("distortion_model: equidistant"));
+  EXPECT_THAT(folder.read("lens/calibration.html"), HasSubstr("<svg"));
+}
+
+TEST(CalibrateLens, SaysThatAPinholeCanNotDescribeAFisheye) {
+  if (!fs::exists(kBoards)) GTEST_SKIP() << "no " << kBoards;
+  const OperatorsFolder folder;
+  const std::string set = (kBoards / "babelcalib_ov_plane").string();
+  const Told told = folder.omma("calibrate lens " + set + "/train/*-14-1*.orpc --board-file " + set +
+                                "/ov_plane.dsc --model caltech");
+  EXPECT_EQ(told.exit_code, 1);
+  EXPECT_THAT(told.out, HasSubstr("the model asked for can not describe this lens"));
+}
+
+TEST(CalibrateLens, FindsTheCornersOfACheckerboardItself) {
+  if (!fs::exists(kBoards)) GTEST_SKIP() << "no " << kBoards;
+  const OperatorsFolder folder;
+  std::string images;
+  for (const char* name : {"img1.png", "img17.png", "img42.png"})
+    images += " " + (kBoards / "camodocal" / name).string();
+  const Told told = folder.omma("calibrate lens" + images + " --board 9x6 --json");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  EXPECT_LT(nlohmann::json::parse(told.out)["rms_px"].get<double>(), 0.4);
+}
+
+TEST(CalibrateLens, RefusesWhatMakesNoSense) {
+  const OperatorsFolder folder;
+  ground::Canvas(300, 200).write_png((folder / "black.png").string());
+  ground::Canvas(200, 200).write_png((folder / "square.png").string());
+  folder.write("corners.orpc", "filename: a.png\nwidth: 10\nheight: 10\nencoding: ascii\n0,7,1,x,3\n");
+  folder.write("board.dsc", "0,2,2,1\ntags\n-1,0,0,0,0,0\n");
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Told told = folder.omma("calibrate lens " + arguments);
+    EXPECT_EQ(told.exit_code, 2) << arguments;
+    EXPECT_THAT(told.err, HasSubstr(sentence)) << arguments;
+  };
+  refused("black.png", "--board: expected COLUMNSxROWS of inner corners");
+  refused("black.png --board 9", "--board: expected COLUMNSxROWS");
+  refused("black.png square.png --board 9x6", "square.png: image size: expected 300 x 200 as the first");
+  refused("corners.orpc", "--board-file: expected the board's .dsc file");
+  refused("corners.orpc --board-file board.dsc",
+          "corners.orpc:5: corner: expected board, corner, flag, u, v");
+  refused("nowhere.png --board 9x6", "nowhere.png");
+  const Told none = folder.omma("calibrate lens black.png --board 9x6");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.out, HasSubstr("the board was found in 0 of 1 images; three are needed"));
+}
+
 }  // namespace
 }  // namespace omma

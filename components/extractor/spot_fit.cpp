@@ -5,6 +5,7 @@
 
 #include "components/extractor/clones.hpp"
 #include "components/extractor/lanes.hpp"
+#include "components/extractor/normal_factor.hpp"
 
 namespace omma {
 namespace {
@@ -137,49 +138,6 @@ OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, float varia
   normal_equations(groups, used, along_u, at.flux, n);
 }
 
-// L D Lᵀ of the normal matrix, L with ones on its diagonal.
-struct Factor {
-  double l[kUnknowns][kUnknowns];
-  double inverse[kUnknowns];  // of D
-};
-
-bool factorise(const double h[kUnknowns][kUnknowns], Factor& f) {
-  double ld[kUnknowns][kUnknowns];  // L D
-#pragma GCC unroll 5
-  for (int j = 0; j < kUnknowns; ++j) {
-    double diagonal = h[j][j];
-#pragma GCC unroll 5
-    for (int k = 0; k < j; ++k) diagonal -= f.l[j][k] * ld[j][k];
-    if (!(diagonal > 0)) return false;
-    f.inverse[j] = 1 / diagonal;
-#pragma GCC unroll 5
-    for (int i = j + 1; i < kUnknowns; ++i) {
-      double sum = h[i][j];
-#pragma GCC unroll 5
-      for (int k = 0; k < j; ++k) sum -= ld[i][k] * f.l[j][k];
-      ld[i][j] = sum;
-      f.l[i][j] = sum * f.inverse[j];
-    }
-  }
-  return true;
-}
-
-void solve(const Factor& f, const double* g, double* x) {
-  double y[kUnknowns];
-#pragma GCC unroll 5
-  for (int i = 0; i < kUnknowns; ++i) {
-    y[i] = g[i];
-#pragma GCC unroll 5
-    for (int k = 0; k < i; ++k) y[i] -= f.l[i][k] * y[k];
-  }
-#pragma GCC unroll 5
-  for (int i = kUnknowns - 1; i >= 0; --i) {
-    x[i] = y[i] * f.inverse[i];
-#pragma GCC unroll 5
-    for (int k = i + 1; k < kUnknowns; ++k) x[i] -= f.l[k][i] * x[k];
-  }
-}
-
 // The two shapes that a round model leaves out, from their scores and informations at the solution.
 OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u,
                            double flux, double sigma, SpotFit& fit) {
@@ -201,14 +159,6 @@ OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const S
   fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
 }
 
-// Covariance of the place from the last block: the inverse of L D Lᵀ.
-Eigen::Matrix2d covariance_of_place(const Factor& f) {
-  const double l = f.l[4][3];
-  Eigen::Matrix2d covariance;
-  covariance << f.inverse[3] + l * l * f.inverse[4], -l * f.inverse[4], -l * f.inverse[4], f.inverse[4];
-  return covariance;
-}
-
 }  // namespace
 
 void fit_spot(const SpotWindow& window, double noise_variance, double gain, const SpotPrior& prior,
@@ -223,7 +173,7 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
   SpotProfile along_u;
   ColumnGroups groups;
   NormalEquations n;
-  Factor factor;
+  NormalFactor<kUnknowns> factor;
   double step[kUnknowns] = {};
   fit.usable = false;
   bool settled = false;
@@ -236,8 +186,8 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
     n.g[1] += sigma_information * (static_cast<double>(prior.sigma) - at.sigma);
     n.h[2][2] += background_information;
     n.g[2] -= background_information * at.background;
-    if (!factorise(n.h, factor)) return;
-    solve(factor, n.g, step);
+    if (!factor.factorise(n.h)) return;
+    factor.solve(n.g, step);
     flux_before = at.flux;
     sigma_before = at.sigma;
     at.flux = std::max(0.2 * at.flux, at.flux + step[0]);
@@ -253,7 +203,7 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
               step[4] * step[4] < kLastStep * kLastStep * factor.inverse[4] &&
               change * change < kLastStep * kLastStep * factor.inverse[1];
   }
-  fit.covariance = covariance_of_place(factor);
+  fit.covariance = factor.covariance_of_place();
   if (!settled) {  // it still moves by so much
     fit.covariance(0, 0) += step[3] * step[3];
     fit.covariance(1, 1) += step[4] * step[4];

@@ -1,13 +1,12 @@
 #include "components/extractor/trail_fit.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "components/extractor/clones.hpp"
 #include "components/extractor/index.hpp"
 #include "components/extractor/lanes.hpp"
+#include "components/extractor/normal_factor.hpp"
 
 namespace omma {
 namespace {
@@ -93,14 +92,14 @@ OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, float varia
   }
 }
 
-using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-using Vector = Eigen::Matrix<double, kUnknowns, 1>;
+using Matrix = double[kUnknowns][kUnknowns];  // lower triangle
+using Vector = double[kUnknowns];
 
 void normal_equations(const Sums& sums, Matrix& h, Vector& g) {
   int n = 0;
   for (int i = 0; i < kUnknowns; ++i) {
     g[i] = static_cast<double>(sum(sums.score[i]));
-    for (int j = 0; j <= i; ++j) h(i, j) = h(j, i) = static_cast<double>(sum(sums.product[n++]));
+    for (int j = 0; j <= i; ++j) h[i][j] = static_cast<double>(sum(sums.product[n++]));
   }
 }
 
@@ -147,9 +146,8 @@ void fit_trail(const SpotWindow& window, double noise_variance, double gain, dou
   double u = fit.u - window.left, v = fit.v - window.top, background = 0;
   Sums sums;
   Matrix h;
-  Vector g, step = Vector::Zero();
-  Eigen::LDLT<Matrix> factor;
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  Vector g, step = {};
+  NormalFactor<kUnknowns> factor;
   bool settled = false;
   fit.usable = false;
   for (int k = 0; k < kIterations && !settled; ++k) {
@@ -159,21 +157,17 @@ void fit_trail(const SpotWindow& window, double noise_variance, double gain, dou
                    static_cast<float>(u),           static_cast<float>(v)};
     evaluate(window, at, variance, per_gain, sums);
     normal_equations(sums, h, g);
-    fit.flux_information = h(0, 0);
+    fit.flux_information = h[0][0];
     const auto prior = [&](int i, double error, double offset) {
-      h(i, i) += 1 / (error * error);
+      h[i][i] += 1 / (error * error);
       g[i] -= offset / (error * error);
     };
     prior(1, background_error, background);
     prior(2, kSigmaError, fit.sigma - sigma_before);
     prior(3, kLengthError, fit.length - length_before);
     prior(4, kTurnError, 0);
-    factor.compute(h);
-    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) return;
-    step = factor.solve(g);
-    Eigen::Matrix<double, kUnknowns, 2> of_place = Eigen::Matrix<double, kUnknowns, 2>::Zero();
-    of_place(5, 0) = of_place(6, 1) = 1;
-    covariance = factor.solve(of_place).template bottomRows<2>();
+    if (!factor.factorise(h)) return;
+    factor.solve(g, step);
     fit.flux = std::max(0.3 * fit.flux, fit.flux + step[0]);
     background += step[1];
     fit.sigma =
@@ -189,13 +183,18 @@ void fit_trail(const SpotWindow& window, double noise_variance, double gain, dou
     u += std::clamp(step[5], -1.0, 1.0);
     v += std::clamp(step[6], -1.0, 1.0);
     if (!(u > 0 && u < window.width - 1 && v > 0 && v < window.height - 1)) return;
-    const Eigen::Vector2d move = step.tail<2>();
-    settled = k > 0 && move.dot(covariance.inverse() * move) < kLastStep * kLastStep &&
-              std::abs(step[3]) < 0.2 * fit.length && std::abs(step[2]) < 0.1 * fit.sigma;
+    const auto small = [&](int i) { return step[i] * step[i] < kLastStep * kLastStep * factor.inverse[i]; };
+    settled = k > 0 && small(5) && small(6) && std::abs(step[3]) < 0.2 * fit.length &&
+              std::abs(step[2]) < 0.1 * fit.sigma;
   }
-  if (!settled) covariance += step.tail<2>() * step.tail<2>().transpose();
-  fit.covariance = covariance;
-  fit.chi2 = std::max(0.0, static_cast<double>(sum(sums.chi2)) - step.dot(g));
+  fit.covariance = factor.covariance_of_place();
+  if (!settled) {  // it still moves by so much
+    fit.covariance(0, 0) += step[5] * step[5];
+    fit.covariance(1, 1) += step[6] * step[6];
+  }
+  double gained = 0;  // by the last step
+  for (int i = 0; i < kUnknowns; ++i) gained += step[i] * g[i];
+  fit.chi2 = std::max(0.0, static_cast<double>(sum(sums.chi2)) - gained);
   fit.u = u + window.left;
   fit.v = v + window.top;
   fit.usable = fit.flux > 0;

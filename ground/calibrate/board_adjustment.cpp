@@ -258,7 +258,8 @@ BoardCalibration calibrate_from_boards(const std::vector<BoardView>& views, int 
   LensShape best;
   std::vector<Pose> best_poses;
   double best_rms = kFar;
-  for (double fov_deg = 25; fov_deg < 230; fov_deg *= 1.12) {
+  for (int k = 0; k < 20; ++k) {
+    const double fov_deg = 25 * std::pow(1.12, k);  // to 215 degrees
     const double half = 0.5 * fov_deg * M_PI / 180;
     const LensShape shape = equidistant_shape(width, height, 0.5 * std::max(width, height) / half, 3.1);
     std::vector<Pose> poses;
@@ -270,7 +271,7 @@ BoardCalibration calibrate_from_boards(const std::vector<BoardView>& views, int 
   }
   if (best_rms > 0.2 * width) {
     calibration.reason =
-        "no field of view from 25 to 230 degrees explains the corners; is the board's size right?";
+        "no field of view from 25 to 215 degrees explains the corners; is the board's size right?";
     return calibration;
   }
   calibration.adjustment = adjust_to_boards(best, views, best_poses, false);

@@ -27,6 +27,7 @@ constexpr Bench kBenches[] = {
     {"ports", omma::bench_ports, "moving a message within and between rate groups"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
+    {"render", omma::bench_render, "the simulator: frame sets a second, one thread, no files"},
     {"steps", omma::bench_steps, "what the scheduler adds to an empty step"},
     {"target_identification", omma::bench_target_identification,
      "targets from an unlabelled cloud of dots: solved, wrong, left open, time"},

@@ -1,0 +1,61 @@
+// omma-bench render: frame sets a second that the simulator draws and reads out, one thread, files not
+// written. Options: --scenario FILE (default: the demo's, three cameras), --frames N.
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/camera_renderer.hpp"
+#include "sim/scenario_file.hpp"
+#include "tests/bench/benches.hpp"
+#include "tests/bench/measure.hpp"
+
+namespace omma {
+namespace {
+
+/// Drawing, truth and read-out of one camera's frame [µs of this thread].
+double frame_microseconds(sim::CameraRenderer& renderer, bool deep, std::uint64_t frame,
+                          std::vector<std::uint16_t>& grey, std::vector<sim::SpotTruth>& truth) {
+  return microseconds([&] {
+    renderer.draw(frame);
+    renderer.truth(truth);
+    if (deep) {
+      renderer.read_out(std::span<std::uint16_t>(grey));
+    } else {
+      renderer.read_out({reinterpret_cast<std::uint8_t*>(grey.data()), grey.size()});
+    }
+  });
+}
+
+}  // namespace
+
+int bench_render(int argc, char** argv) {
+  const std::string file =
+      text_option(argc, argv, "--scenario", OMMA_SOURCE_DIR "/config/demo_scenario.toml");
+  const sim::Scenario scenario = sim::read_scenario_file(file);
+  const int frames = std::max(1, option(argc, argv, "--frames", 40));
+  const std::vector<SkyStar> stars = sim::sky_of(scenario);
+  std::printf("%s: %zu cameras, %zu stars to V %.1f, %d frame sets, one thread\n", scenario.name.c_str(),
+              scenario.rig.cameras.size(), stars.size(), scenario.faintest, frames);
+  double set = 0;
+  for (std::size_t c = 0; c < scenario.rig.cameras.size(); ++c) {
+    const sim::CameraView view(scenario.rig.cameras[c], scenario.sensors[c], scenario.seed,
+                               static_cast<int>(c));
+    sim::CameraRenderer renderer(scenario, stars, view, static_cast<int>(c));
+    std::vector<std::uint16_t> grey(static_cast<std::size_t>(view.width()) *
+                                    static_cast<std::size_t>(view.height()));
+    std::vector<sim::SpotTruth> truth;
+    std::vector<double> times;
+    for (int frame = 0; frame < frames; ++frame)
+      times.push_back(frame_microseconds(renderer, scenario.sensors[c].bits > 8,
+                                         static_cast<std::uint64_t>(frame), grey, truth));
+    const double median = quantile(times, 0.5);
+    set += median;
+    std::printf("%-10s %4d x %-4d %8.2f ms median %8.2f ms 95 %%\n", scenario.rig.cameras[c].name.c_str(),
+                view.width(), view.height(), 1e-3 * median, 1e-3 * quantile(times, 0.95));
+  }
+  std::printf("frame set %24.2f ms: %.1f sets/s a thread\n", 1e-3 * set, 1e6 / set);
+  return 0;
+}
+
+}  // namespace omma

@@ -23,6 +23,7 @@ void CameraRenderer::draw(std::uint64_t frame) {
   frame_ = frame;
   const SceneInstant midpoint = scene_at(scenario_, scenario_.time_of(frame));
   std::vector<SceneInstant> drawn;
+  drawn.reserve(static_cast<std::size_t>(view_.sensor().blur_samples));
   for (int k = 0; k < view_.sensor().blur_samples; ++k)
     drawn.push_back(scene_at(scenario_, drawn_time(frame, k)));
   std::vector<CardView> cards;

@@ -101,7 +101,7 @@ class Fit {
  private:
   Descent<kUnknowns> run(std::span<const double> given, const Pose& initial,
                          double largest_cost = std::numeric_limits<double>::infinity()) noexcept {
-    const Descent<kUnknowns> descent =
+    Descent<kUnknowns> descent =
         descend<kUnknowns>(sights_, given, initial, options_.max_iterations, largest_cost);
     iterations_ += descent.iterations;
     return descent;

@@ -166,11 +166,11 @@ PoseSolution find_pose(std::span<const Sight> sights, const SolveOptions& option
 
 PoseSolution solve_pose_or_find(std::span<const Sight> sights, const Pose& initial,
                                 const SolveOptions& options, std::span<std::uint8_t> used) noexcept {
-  const PoseSolution near = solve_pose(sights, initial, options, used);
+  PoseSolution near = solve_pose(sights, initial, options, used);
   if (explained_by_noise(near, sights.size())) return near;
   std::array<std::uint8_t, kMaxSights> flags{};
   const std::size_t n = std::min(sights.size(), kMaxSights);
-  const PoseSolution found = find_pose(sights, options, {flags.data(), n});
+  PoseSolution found = find_pose(sights, options, {flags.data(), n});
   if (!solved(found)) return near;
   const double near_cost = measured(sights.first(n), near.rig_from_body, options.gate).cost;
   const double found_cost = measured(sights.first(n), found.rig_from_body, options.gate).cost;

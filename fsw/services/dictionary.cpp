@@ -21,7 +21,7 @@ void write_event(JsonText& json, const EventDescriptor& event) {
         .string(event.values[i].unit)
         .close_object();
   json.close_array().key("burst").number(event.burst);
-  json.key("interval_s").number(static_cast<double>(event.interval_ns) * 1e-9).close_object();
+  json.key("interval_s").number(static_cast<double>(event.interval_ns) / 1e9).close_object();
 }
 
 void write_topic(JsonText& json, const TopicDescriptor& topic) {
@@ -32,12 +32,12 @@ void write_topic(JsonText& json, const TopicDescriptor& topic) {
 
 void write_group(JsonText& json, const RateGroup& group, std::chrono::nanoseconds base_period) {
   json.open_object().key("name").string(group.name);
-  json.key("period_s").number(static_cast<double>(base_period.count()) * group.divisor * 1e-9);
-  json.key("offset_s").number(static_cast<double>(base_period.count()) * group.offset * 1e-9);
+  json.key("period_s").number(static_cast<double>(base_period.count()) * group.divisor / 1e9);
+  json.key("offset_s").number(static_cast<double>(base_period.count()) * group.offset / 1e9);
   json.key("priority").number(group.priority).key("components").open_array();
   for (const ScheduledComponent& scheduled : group.components) {
     json.open_object().key("name").string(scheduled.component.name());
-    json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) * 1e-9).close_object();
+    json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) / 1e9).close_object();
   }
   json.close_array().close_object();
 }

@@ -11,6 +11,7 @@
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/calibrate/refine_dots.hpp"
 #include "ground/calibrate/sky_report.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/photographs/photographs.hpp"
 #include "ground/solve/photograph_solver.hpp"

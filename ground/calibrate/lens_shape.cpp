@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

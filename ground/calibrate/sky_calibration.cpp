@@ -7,6 +7,7 @@
 #include "components/catalogue/star.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "ground/calibrate/star_pairing.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/solve/photograph_solver.hpp"
 

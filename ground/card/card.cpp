@@ -13,6 +13,7 @@
 #include "ground/card/card_check.hpp"
 #include "ground/card/card_reading.hpp"
 #include "ground/card/card_sheet.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "hal/recorded/image_file.hpp"
 

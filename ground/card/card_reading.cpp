@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

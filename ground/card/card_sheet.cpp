@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

@@ -13,6 +13,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "ground/design/coverage_picture.hpp"
 #include "ground/design/design_study.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

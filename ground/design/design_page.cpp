@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "ground/design/design_study.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

@@ -10,6 +10,7 @@
 #include "ground/annotate.hpp"
 #include "ground/dots/pipelines.hpp"
 #include "ground/draw/stretch.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "hal/recorded/image_file.hpp"
 

@@ -94,14 +94,16 @@ std::vector<GridLine> sky_grid(const SkyProjection& projection, const GridStep& 
     const bool quarter = std::abs(std::remainder(ra, 90)) < 1e-9;
     const double last = quarter ? 90 : 90 - std::min(10.0, step.declination_deg);
     LineBuilder line(projection, right_ascension_label(ra), largest_jump, lines);
-    for (double dec = -last; dec <= last + 1e-9; dec += sample) line.sample(direction_of(ra, dec));
+    const int samples = static_cast<int>(std::ceil(2 * last / sample));
+    for (int k = 0; k <= samples; ++k) line.sample(direction_of(ra, std::min(k * sample - last, last)));
     line.cut();
   }
   const int highest = static_cast<int>(std::ceil(90 / step.declination_deg)) - 1;
   for (int i = -highest; i <= highest; ++i) {
     const double dec = i * step.declination_deg;
     LineBuilder line(projection, declination_label(dec), largest_jump, lines);
-    for (double ra = 0; ra <= 360 + 1e-9; ra += sample) line.sample(direction_of(ra, dec));
+    const int samples = static_cast<int>(std::ceil(360 / sample));
+    for (int k = 0; k <= samples; ++k) line.sample(direction_of(std::min(k * sample, 360.0), dec));
     line.cut();
   }
   return lines;

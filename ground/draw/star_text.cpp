@@ -20,7 +20,7 @@ constexpr std::array<std::string_view, 10> kSuperscripts{"⁰", "¹", "²", "³"
 }  // namespace
 
 std::string star_text(std::uint16_t hr) {
-  const std::string label(star_label(hr).view());
+  std::string label(star_label(hr).view());
   if (!proper_name(hr).empty()) return label;
   for (const auto& [latin, greek] : kGreek) {
     if (label.rfind(latin, 0) != 0) continue;

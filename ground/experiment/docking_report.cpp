@@ -5,6 +5,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/experiment/docking.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/report/svg_chart.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/experiment/earth_rotation.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 #include "ground/report/svg_chart.hpp"

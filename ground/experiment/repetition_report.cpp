@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "ground/experiment/docking.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 

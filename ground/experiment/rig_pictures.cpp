@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/report/report_pictures.hpp"
 

@@ -230,7 +230,9 @@ class Parser {
     while (accept("::")) name += "::" + word("type");
     // A type is declared before it is used, so no struct can hold itself; the innermost scope is asked first.
     for (std::string scope = scope_;; scope = outer(scope)) {
-      member.type_name = scope.empty() ? name : scope + "::" + name;
+      member.type_name = scope;
+      if (!scope.empty()) member.type_name += "::";
+      member.type_name += name;
       if (schema_.enums.contains(member.type_name)) {
         member.kind = Kind::kEnum;
         return;

@@ -4,11 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <numbers>
 
 #include "components/geometry/angles.hpp"
+#include "ground/format.hpp"
+#include "ground/page/page.hpp"
 
 namespace omma::ground {
 namespace {
@@ -17,15 +17,6 @@ using telemetry::TopicId;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kArcseconds = 3600.0 * kDegrees;
-
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...) {
-  char text[256];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
-}
 
 const char* name_of(omma_FrameState state) {
   static constexpr const char* kNames[] = {"missing", "fresh", "late", "stuck", "saturated"};
@@ -66,10 +57,10 @@ class Table {
   void heading(const char* title, TopicId topic) {
     const std::optional<double> age = samples_.age(topic, now_);
     const std::string note = !age                 ? "nothing yet"
-                             : *age > kStaleAfter ? formatted("STALE, %.0f s old", *age)
-                                                  : formatted("%.1f s ago", *age);
+                             : *age > kStaleAfter ? format("STALE, %.0f s old", *age)
+                                                  : format("%.1f s ago", *age);
     if (!lines_.empty()) plain("");
-    lines_.push_back({formatted("%-10s %s", title, note.c_str()), LineStyle::kHeading});
+    lines_.push_back({format("%-10s %s", title, note.c_str()), LineStyle::kHeading});
   }
   std::vector<TableLine> take() { return std::move(lines_); }
 
@@ -81,72 +72,70 @@ class Table {
 
 void add_cameras(Table& table, const omma_FrameSet& frame_set) {
   table.add(TopicId::kFrameSet, LineStyle::kPlain,
-            formatted("frame set %llu   on-board time %.3f s   sky %s   stars %u   targets %u   unclaimed %u",
-                      static_cast<unsigned long long>(frame_set.frame),
-                      static_cast<double>(frame_set.time_ns) * 1e-9, name_of(frame_set.sky_state),
-                      frame_set.stars_paired, frame_set.targets_paired, frame_set.unclaimed_dots));
+            format("frame set %llu   on-board time %.3f s   sky %s   stars %u   targets %u   unclaimed %u",
+                   static_cast<unsigned long long>(frame_set.frame),
+                   static_cast<double>(frame_set.time_ns) * 1e-9, name_of(frame_set.sky_state),
+                   frame_set.stars_paired, frame_set.targets_paired, frame_set.unclaimed_dots));
   table.plain("camera       state       dots  found  stars  targets  background    noise");
   for (std::uint32_t c = 0; c < frame_set.cameras._length; ++c) {
     const omma_CameraStatus& camera = frame_set.cameras._buffer[c];
     table.add(
         TopicId::kFrameSet, camera.state == omma_FRAME_FRESH ? LineStyle::kGood : LineStyle::kWarning,
-        formatted("%-12s %-10s %5u %6u %6u %8u %11.1f %8.2f", camera.name, name_of(camera.state),
-                  camera.dots_kept, camera.dots_found, camera.stars_paired, camera.targets_paired,
-                  static_cast<double>(camera.background_levels), static_cast<double>(camera.noise_levels)));
+        format("%-12s %-10s %5u %6u %6u %8u %11.1f %8.2f", camera.name, name_of(camera.state),
+               camera.dots_kept, camera.dots_found, camera.stars_paired, camera.targets_paired,
+               static_cast<double>(camera.background_levels), static_cast<double>(camera.noise_levels)));
   }
 }
 
 void add_attitude(Table& table, const omma_Attitude& attitude) {
   const LineStyle style = attitude.valid ? LineStyle::kGood : LineStyle::kBad;
   table.add(TopicId::kAttitude, style,
-            formatted("%s   stars %u used, %u culled   chi2 %.1f   residual %.1f arcsec rms",
-                      attitude.valid ? name_of(attitude.state) : "NOT VALID", attitude.stars_used,
-                      attitude.stars_culled, attitude.chi2, attitude.residual_rms_rad * kArcseconds));
+            format("%s   stars %u used, %u culled   chi2 %.1f   residual %.1f arcsec rms",
+                   attitude.valid ? name_of(attitude.state) : "NOT VALID", attitude.stars_used,
+                   attitude.stars_culled, attitude.chi2, attitude.residual_rms_rad * kArcseconds));
   if (!attitude.valid) return;
   const omma_Quaternion& q = attitude.rig_from_j2000;
   const Pointing axis = pointing(eigen(q));
   table.add(TopicId::kAttitude, style,
-            formatted("rig_from_j2000   x %+.7f  y %+.7f  z %+.7f  w %+.7f", q.x, q.y, q.z, q.w));
+            format("rig_from_j2000   x %+.7f  y %+.7f  z %+.7f  w %+.7f", q.x, q.y, q.z, q.w));
   table.add(TopicId::kAttitude, style,
-            formatted("rig z axis       RA %.4f  Dec %+.4f  roll %.4f deg", axis.right_ascension * kDegrees,
-                      axis.declination * kDegrees, axis.roll * kDegrees));
+            format("rig z axis       RA %.4f  Dec %+.4f  roll %.4f deg", axis.right_ascension * kDegrees,
+                   axis.declination * kDegrees, axis.roll * kDegrees));
   const double* covariance = attitude.covariance_rad2;
-  table.add(
-      TopicId::kAttitude, style,
-      formatted("1-sigma          x %.2f  y %.2f  z %.2f arcsec", std::sqrt(covariance[0]) * kArcseconds,
-                std::sqrt(covariance[4]) * kArcseconds, std::sqrt(covariance[8]) * kArcseconds));
+  table.add(TopicId::kAttitude, style,
+            format("1-sigma          x %.2f  y %.2f  z %.2f arcsec", std::sqrt(covariance[0]) * kArcseconds,
+                   std::sqrt(covariance[4]) * kArcseconds, std::sqrt(covariance[8]) * kArcseconds));
   if (!attitude.rate_valid) return;
   const omma_Vector3& rate = attitude.rate_rad_s;
   table.add(TopicId::kAttitude, style,
-            formatted("rate             x %+.4f  y %+.4f  z %+.4f deg/s", rate.x * kDegrees,
-                      rate.y * kDegrees, rate.z * kDegrees));
+            format("rate             x %+.4f  y %+.4f  z %+.4f deg/s", rate.x * kDegrees, rate.y * kDegrees,
+                   rate.z * kDegrees));
 }
 
 void add_pose(Table& table, const omma_RelativePose& pose) {
   const LineStyle style = !pose.valid      ? LineStyle::kBad
                           : pose.ambiguous ? LineStyle::kWarning
                                            : LineStyle::kGood;
-  table.add(
-      TopicId::kRelativePose, style,
-      formatted("%-12s %s   targets %u used, %u culled   residual %.1f arcsec rms%s", pose.body_name,
-                pose.valid ? name_of(pose.state) : "NOT VALID", pose.targets_used, pose.targets_culled,
-                pose.residual_rms_rad * kArcseconds, pose.valid && pose.ambiguous ? "   AMBIGUOUS" : ""));
+  table.add(TopicId::kRelativePose, style,
+            format("%-12s %s   targets %u used, %u culled   residual %.1f arcsec rms%s", pose.body_name,
+                   pose.valid ? name_of(pose.state) : "NOT VALID", pose.targets_used, pose.targets_culled,
+                   pose.residual_rms_rad * kArcseconds, pose.valid && pose.ambiguous ? "   AMBIGUOUS" : ""));
   if (!pose.valid) return;
   const omma_Vector3& p = pose.position_m;
   const double* covariance = pose.covariance;
   auto sigma = [covariance](int i) { return std::sqrt(covariance[7 * i]); };
   table.add(TopicId::kRelativePose, style,
-            formatted("  position       x %+.4f  y %+.4f  z %+.4f m   range %.4f m", p.x, p.y, p.z,
-                      std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z)));
+            format("  position       x %+.4f  y %+.4f  z %+.4f m   range %.4f m", p.x, p.y, p.z,
+                   std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z)));
   table.add(TopicId::kRelativePose, style,
-            formatted("  1-sigma        x %.4f  y %.4f  z %.4f m", sigma(3), sigma(4), sigma(5)));
+            format("  1-sigma        x %.4f  y %.4f  z %.4f m", sigma(3), sigma(4), sigma(5)));
   const YawPitchRoll angles = yaw_pitch_roll(eigen(pose.rig_from_body));
   table.add(TopicId::kRelativePose, style,
-            formatted("  rig_from_body  yaw %+.3f  pitch %+.3f  roll %+.3f deg", angles.yaw * kDegrees,
-                      angles.pitch * kDegrees, angles.roll * kDegrees));
+            format("  rig_from_body  yaw %+.3f  pitch %+.3f  roll %+.3f deg", angles.yaw * kDegrees,
+                   angles.pitch * kDegrees, angles.roll * kDegrees));
   table.add(TopicId::kRelativePose, style,
-            formatted("  1-sigma        x %.3f  y %.3f  z %.3f deg", sigma(0) * kDegrees, sigma(1) * kDegrees,
-                      sigma(2) * kDegrees));
+            format("  1-sigma        x %.3f  y %.3f  z %.3f deg", sigma(0) * kDegrees, sigma(1) * kDegrees,
+                   sigma(2) * kDegrees));
 }
 
 void add_health(Table& table, const omma_Health& health) {
@@ -156,11 +145,11 @@ void add_health(Table& table, const omma_Health& health) {
   auto count = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   table.add(
       TopicId::kHealth, style,
-      formatted("%s   ticks missed %llu   over budget %llu   memory violations %llu", name_of(health.state),
-                count(health.ticks_missed), count(health.over_budget), count(health.memory_violations)));
+      format("%s   ticks missed %llu   over budget %llu   memory violations %llu", name_of(health.state),
+             count(health.ticks_missed), count(health.over_budget), count(health.memory_violations)));
   table.add(TopicId::kHealth, style,
-            formatted("dropped: events %llu, frame sets of telemetry %llu   not logged: %llu samples",
-                      count(health.events_dropped), count(health.telemetry_dropped), count(health.log_lost)));
+            format("dropped: events %llu, frame sets of telemetry %llu   not logged: %llu samples",
+                   count(health.events_dropped), count(health.telemetry_dropped), count(health.log_lost)));
 }
 
 void add_timing(Table& table, const omma_Timing& timing) {
@@ -169,10 +158,10 @@ void add_timing(Table& table, const omma_Timing& timing) {
     const omma_StepTiming& step = timing.steps._buffer[i];
     auto milliseconds = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
     table.add(TopicId::kTiming, step.over_budget > 0 ? LineStyle::kWarning : LineStyle::kPlain,
-              formatted("%-14s %8llu %9.3f %9.3f %9.3f %10.1f %6llu", step.name,
-                        static_cast<unsigned long long>(step.steps), milliseconds(step.mean_ns),
-                        milliseconds(step.p99_ns), milliseconds(step.max_ns), milliseconds(step.budget_ns),
-                        static_cast<unsigned long long>(step.over_budget)));
+              format("%-14s %8llu %9.3f %9.3f %9.3f %10.1f %6llu", step.name,
+                     static_cast<unsigned long long>(step.steps), milliseconds(step.mean_ns),
+                     milliseconds(step.p99_ns), milliseconds(step.max_ns), milliseconds(step.budget_ns),
+                     static_cast<unsigned long long>(step.over_budget)));
   }
 }
 
@@ -183,8 +172,8 @@ void add_events(Table& table, const std::deque<EventLine>& events) {
                                                                    : LineStyle::kPlain;
     // An event stays true however old it is.
     table.add(TopicId::kEvent, style,
-              formatted("%12.3f s  %-10s %s", static_cast<double>(event.time_ns) * 1e-9,
-                        name_of(event.severity), event.text.c_str()));
+              format("%12.3f s  %-10s %s", static_cast<double>(event.time_ns) * 1e-9, name_of(event.severity),
+                     event.text.c_str()));
   }
 }
 
@@ -193,10 +182,10 @@ void add_events(Table& table, const std::deque<EventLine>& events) {
 std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkState& link,
                                      SteadyClock::time_point now) {
   Table table(samples, now);
-  table.plain(link.spacecraft.empty() ? formatted("no spacecraft heard yet in domain %d", link.domain)
-                                      : formatted("%s, domain %d   %.1f frame sets/s   %llu samples lost",
-                                                  link.spacecraft.c_str(), link.domain, samples.frame_rate(),
-                                                  static_cast<unsigned long long>(link.lost)));
+  table.plain(link.spacecraft.empty()
+                  ? format("no spacecraft heard yet in domain %d", link.domain)
+                  : format("%s, domain %d   %.1f frame sets/s   %llu samples lost", link.spacecraft.c_str(),
+                           link.domain, samples.frame_rate(), static_cast<unsigned long long>(link.lost)));
   table.heading("CAMERAS", TopicId::kFrameSet);
   if (samples.frame_set() != nullptr) add_cameras(table, *samples.frame_set());
   table.heading("ATTITUDE", TopicId::kAttitude);
@@ -210,8 +199,8 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
   table.heading("IMAGE", TopicId::kImageChunk);
   if (const omma_ImageChunk* chunk = samples.image_chunk())
     table.add(TopicId::kImageChunk, LineStyle::kPlain,
-              formatted("image %u   %u x %u px   rows to %u", chunk->image, chunk->width_px, chunk->height_px,
-                        chunk->first_row + chunk->rows));
+              format("image %u   %u x %u px   rows to %u", chunk->image, chunk->width_px, chunk->height_px,
+                     chunk->first_row + chunk->rows));
   table.heading("EVENTS", TopicId::kEvent);
   add_events(table, samples.events());
   return table.take();

@@ -1,7 +1,6 @@
 #include "ground/page/page.hpp"
 
 #include <array>
-#include <cstdarg>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -64,16 +63,6 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 }
 
 }  // namespace
-
-std::string format(const char* pattern, ...) {
-  std::array<char, 1024> text{};
-  va_list values;
-  va_start(values, pattern);
-  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is three lines up
-  std::vsnprintf(text.data(), text.size(), pattern, values);
-  va_end(values);
-  return text.data();
-}
 
 std::string page_head(const std::string& title, const std::string& heading, const std::string& lead) {
   return "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' "

@@ -9,9 +9,6 @@
 
 namespace omma::ground {
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
-
 /// The beginning of a page up to and with its heading; `lead` is a sentence below it (HTML).
 std::string page_head(const std::string& title, const std::string& heading, const std::string& lead);
 std::string page_end();

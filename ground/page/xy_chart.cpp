@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

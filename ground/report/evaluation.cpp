@@ -146,6 +146,7 @@ auto rms_over(const Points& points, Of&& of) {
 template <class Points>
 std::vector<double> nees_of(const Points& points) {
   std::vector<double> samples;
+  samples.reserve(points.size());
   for (const auto& point : points) samples.push_back(point.nees);
   return samples;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/report/svg_chart.hpp"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -49,7 +50,8 @@ std::string frame(const Axes& axes, const std::string& title, const std::vector<
                   axes.y(tick) + 3.5, tick);
   }
   const double step = round_up(axes.duration / 5);
-  for (double time = 0; time <= axes.duration + 1e-6; time += step) {
+  for (int k = 0; k * step <= axes.duration + 1e-6; ++k) {
+    const double time = k * step;
     svg += format("<text class='tick' text-anchor='middle' x='%.1f' y='%.1f'>%g s</text>", axes.x(time),
                   kHeight - 8, time);
   }
@@ -61,6 +63,7 @@ std::string frame(const Axes& axes, const std::string& title, const std::vector<
 std::string error_chart(const std::string& title, const std::string& unit,
                         const std::vector<ErrorPoint>& points, double duration) {
   std::vector<double> extents;
+  extents.reserve(points.size());
   for (const ErrorPoint& point : points) {
     extents.push_back(std::max(std::abs(point.error), 3 * point.sigma));
   }

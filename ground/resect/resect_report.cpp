@@ -6,6 +6,7 @@
 
 #include "components/geometry/angles.hpp"
 #include "ground/annotate.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

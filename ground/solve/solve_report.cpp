@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "components/catalogue/star_names.hpp"
 #include "ground/annotate.hpp"
+#include "ground/format.hpp"
 
 namespace omma::ground {
 namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kArcseconds = 3600.0 * kDegrees;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 256> line{};
-  std::snprintf(line.data(), line.size(), format, values...);
-  return line.data();
-}
 
 Eigen::Vector3d sigma_arcsec(const AttitudeSolution& attitude) {
   return kArcseconds * attitude.covariance.diagonal().cwiseSqrt();
@@ -32,7 +25,7 @@ std::string solution_text(const Rig& rig, const PhotographSolution& solution, co
   if (!solution.solved) {
     text = "no solution: " + solution.reason + "\n";
     for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
-      text += formatted("%-10s %zu dots\n", rig.cameras[c].name.c_str(), dots.cameras[c].dots.size());
+      text += format("%-10s %zu dots\n", rig.cameras[c].name.c_str(), dots.cameras[c].dots.size());
     }
     return text;
   }
@@ -41,17 +34,17 @@ std::string solution_text(const Rig& rig, const PhotographSolution& solution, co
   text += "camera           RA        Dec       roll   stars  dots\n";
   for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
     const SolvedCamera& camera = solution.cameras[c];
-    text += formatted("%-10s %9.4f° %+9.4f° %9.4f°  %5d %5zu\n", rig.cameras[c].name.c_str(),
-                      camera.right_ascension * kDegrees, camera.declination * kDegrees,
-                      camera.roll * kDegrees, camera.stars_used, dots.cameras[c].dots.size());
+    text += format("%-10s %9.4f° %+9.4f° %9.4f°  %5d %5zu\n", rig.cameras[c].name.c_str(),
+                   camera.right_ascension * kDegrees, camera.declination * kDegrees, camera.roll * kDegrees,
+                   camera.stars_used, dots.cameras[c].dots.size());
   }
-  text += formatted("rig_from_j2000   x %+.9f  y %+.9f  z %+.9f  w %+.9f\n", q.x(), q.y(), q.z(), q.w());
-  text += formatted("1-sigma          x %.2f\"  y %.2f\"  z %.2f\" (rig axes)\n", sigma.x(), sigma.y(),
-                    sigma.z());
-  text += formatted("stars used       %d, residual rms %.3f px, false match below 1e%.0f\n",
-                    solution.stars_used, solution.residual_rms_px, solution.log10_false_match);
-  text += formatted("time             extract %.2f ms, identify %.2f ms, attitude %.2f ms\n",
-                    solution.times.extract_ms, solution.times.identify_ms, solution.times.attitude_ms);
+  text += format("rig_from_j2000   x %+.9f  y %+.9f  z %+.9f  w %+.9f\n", q.x(), q.y(), q.z(), q.w());
+  text +=
+      format("1-sigma          x %.2f\"  y %.2f\"  z %.2f\" (rig axes)\n", sigma.x(), sigma.y(), sigma.z());
+  text += format("stars used       %d, residual rms %.3f px, false match below 1e%.0f\n", solution.stars_used,
+                 solution.residual_rms_px, solution.log10_false_match);
+  text += format("time             extract %.2f ms, identify %.2f ms, attitude %.2f ms\n",
+                 solution.times.extract_ms, solution.times.identify_ms, solution.times.attitude_ms);
   return text;
 }
 
@@ -108,11 +101,10 @@ void write_annotated(const std::string& file, const ImageView& image, const Rig&
   annotation.title = std::string(rig.cameras[camera].name.view());
   if (solution.solved) {
     const SolvedCamera& solved = solution.cameras[camera];
-    annotation.lines.push_back(formatted("RA %.3f°  Dec %+.3f°  roll %.3f°",
-                                         solved.right_ascension * kDegrees, solved.declination * kDegrees,
-                                         solved.roll * kDegrees));
-    annotation.lines.push_back(formatted("%d stars used of %zu dots, residual %.3f px rms", solved.stars_used,
-                                         list.dots.size(), solution.residual_rms_px));
+    annotation.lines.push_back(format("RA %.3f°  Dec %+.3f°  roll %.3f°", solved.right_ascension * kDegrees,
+                                      solved.declination * kDegrees, solved.roll * kDegrees));
+    annotation.lines.push_back(format("%d stars used of %zu dots, residual %.3f px rms", solved.stars_used,
+                                      list.dots.size(), solution.residual_rms_px));
     annotation.sky =
         SkyView{rig.cameras[camera].lens,
                 rig.cameras[camera].rig_from_camera.rotation.conjugate() * solution.attitude.rig_from_j2000};

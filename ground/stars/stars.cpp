@@ -8,6 +8,7 @@
 
 #include "components/catalogue/star_catalogue.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 #include "ground/stars/sky_picture.hpp"

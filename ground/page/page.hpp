@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ground/format.hpp"  // pages are made of formatted numbers
+
 namespace omma::ground {
 
 /// The beginning of a page up to and with its heading; `lead` is a sentence below it (HTML).

@@ -16,6 +16,9 @@ constexpr double kBend = 0.1;
 constexpr int kGrowthRounds = 3;
 /// No earlier pose tells the two minima of a flat card apart: the less likely one must be hopeless.
 constexpr double kPoseMargin = 25.0;
+/// χ² this many of its standard deviations too large: one of the pairs may be wrong.
+constexpr double kSuspect = 5.0;
+constexpr int kMostMisfits = 3;  ///< pairs left out for that
 
 }  // namespace
 
@@ -162,16 +165,47 @@ bool TargetVerification::grow(std::size_t least, TargetLabelling& labelling) noe
     if (round > 0 && pairs_.size() == before) break;
     solve(labelling.pose.rig_from_body, growing_, labelling.pose);
   }
-  solve(labelling.pose.rig_from_body, final_, labelling.pose);
+  solve_and_cull(labelling);
+  for (int misfits = 0; misfits < kMostMisfits && leave_out_misfit(labelling); ++misfits) {
+  }
   if (labelling.pose.pairs < least || labelling.pose.status == SolveStatus::kInconsistent) return false;
-  labelling.pairs.clear();
-  for (std::size_t i = 0; i < pairs_.size(); ++i)
-    if (used_[i]) labelling.pairs.push_back(pairs_[i]);
-  pairs_ = labelling.pairs;
   const Surroundings here = surroundings(labelling.pose);
   labelling.log_chance = log_chance(labelling.pose, here);
   const double density = std::max(here.dots - 3, 1.0) / here.area;
   labelling.log_clutter = std::log(2 * std::numbers::pi * here.variance * density);
+  return true;
+}
+
+void TargetVerification::solve_and_cull(TargetLabelling& labelling) noexcept {
+  solve(labelling.pose.rig_from_body, final_, labelling.pose);
+  labelling.pairs.clear();
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    if (used_[i]) labelling.pairs.push_back(pairs_[i]);
+  pairs_ = labelling.pairs;
+}
+
+// A wrong pair with few others to outvote it pulls the pose to itself and stays within the gate; without it
+// the others fit far better.
+bool TargetVerification::leave_out_misfit(TargetLabelling& labelling) noexcept {
+  const double freedom = 2.0 * static_cast<double>(pairs_.size()) - 6;
+  if (!(freedom > 2) || labelling.pose.chi2 <= freedom + kSuspect * std::sqrt(2 * freedom)) return false;
+  double lowest = labelling.pose.chi2 - gate_ * gate_;
+  std::size_t misfit = pairs_.size();
+  for (std::size_t i = 0; i < labelling.pairs.size(); ++i) {
+    pairs_ = labelling.pairs;
+    pairs_[i] = pairs_.back();
+    pairs_.pop_back();
+    PoseSolution without;
+    solve(labelling.pose.rig_from_body, growing_, without);
+    if (!(without.chi2 < lowest)) continue;
+    lowest = without.chi2;
+    misfit = i;
+  }
+  pairs_ = labelling.pairs;
+  if (misfit == pairs_.size()) return false;
+  pairs_[misfit] = pairs_.back();
+  pairs_.pop_back();
+  solve_and_cull(labelling);
   return true;
 }
 

@@ -51,6 +51,10 @@ class TargetVerification {
 
  private:
   bool grow(std::size_t least, TargetLabelling& labelling) noexcept;
+  /// Over pairs_, which are then those the solver kept.
+  void solve_and_cull(TargetLabelling& labelling) noexcept;
+  /// @return whether there was a pair without which the others fit far better
+  bool leave_out_misfit(TargetLabelling& labelling) noexcept;
   /// The part of the sphere where the body is, for one camera.
   struct Region {
     Eigen::Vector3d direction;

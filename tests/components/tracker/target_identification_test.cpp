@@ -76,6 +76,19 @@ TEST(TargetIdentification, CardsAreFoundAmongClutterWithAThirdOfTheTargetsHidden
   }
 }
 
+// Seven targets of twelve and a dot of clutter where a hidden one might be: within the gate, because it pulls
+// the pose to itself.
+TEST(TargetIdentification, AWrongPairWithFewToOutvoteItIsLeftOut) {
+  const CardProblem problem =
+      make_card_problem({.targets = 12, .solid = true, .hidden = 0.3, .clutter = 0.5}, 97);
+  TargetIdentifier identifier(problem.body);
+  const TargetIdentification found = identifier.identify(problem.dots);
+  ASSERT_EQ(found.status, TargetIdentificationStatus::kIdentified);
+  for (const TargetPair& pair : found.pairs) EXPECT_EQ(problem.target_of_dot[pair.dot], pair.target);
+  const Vector6d error = pose_error(found.pose.rig_from_body, problem.truth);
+  EXPECT_LT(error.dot(found.pose.covariance.inverse() * error), 30);
+}
+
 TEST(TargetIdentification, ClutterAloneGivesNoAnswer) {
   CardProblemOptions options;
   options.body_present = false;

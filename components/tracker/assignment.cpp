@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace omma {
 
@@ -30,6 +31,28 @@ double mahalanobis2(const Eigen::Vector2d& d, const Eigen::Matrix2d& c) {
 }
 
 }  // namespace
+
+double chance_pairs(std::span<const PredictedPoint> predictions, const DotList& dots,
+                    const AssignmentGate& gate, int width, int height) noexcept {
+  if (dots.dots.empty()) return 0;
+  double variance = 0;
+  for (const Dot& dot : dots.dots) variance += 0.5 * dot.covariance.trace();
+  variance = variance / static_cast<double>(dots.dots.size()) + gate.floor_px * gate.floor_px;
+  double area = 0;
+  for (const PredictedPoint& point : predictions) {
+    const Eigen::Vector2d& at = point.pixel;
+    if (at.x() < 0 || at.y() < 0 || at.x() > width - 1 || at.y() > height - 1) continue;
+    const Eigen::Matrix2d s = point.covariance + variance * Eigen::Matrix2d::Identity();
+    area += std::sqrt(s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0));
+  }
+  const double density =
+      static_cast<double>(dots.dots.size()) / (static_cast<double>(width) * static_cast<double>(height));
+  return std::numbers::pi * gate.chi2 * area * density;
+}
+
+bool beyond_chance(std::size_t pairs, double chance, int least) noexcept {
+  return static_cast<double>(pairs) >= chance + 6 * std::sqrt(chance) + least;
+}
 
 std::span<const Assignment> Assigner::assign(std::span<const PredictedPoint> predictions, const DotList& dots,
                                              const DotGrid& grid, const AssignmentGate& gate,

@@ -33,6 +33,16 @@ struct AssignmentGate {
   float dominance = 4.0F;  ///< unless one of the rivals is this many times brighter
 };
 
+/// Expected number of predictions that would get a dot if the dots lay at random over the image: the sum of
+/// the gates' areas, π χ² √det S, times the density of the dots.
+/// @param width, height  of the image [px]
+double chance_pairs(std::span<const PredictedPoint> predictions, const DotList& dots,
+                    const AssignmentGate& gate, int width, int height) noexcept;
+
+/// True where chance hardly ever makes so many pairs: six standard deviations of a Poisson number of this
+/// mean, and `least` on top.
+bool beyond_chance(std::size_t pairs, double chance, int least) noexcept;
+
 /// Work space and result of one image's assignment; static storage, no allocation.
 class Assigner {
  public:

@@ -35,9 +35,12 @@ void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
 void BodyPairing::pair(SeenDots& dots, const Rig& rig, const TargetBody& body,
                        const PredictedPose& prediction, const AssignmentGate& gate,
                        StaticVector<Pairing, limits::kTargetPairs>& out) noexcept {
+  chance_ = 0;
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
     if (dots.list(c).dots.empty()) continue;
     predict(rig.cameras[c], body, prediction);
+    chance_ +=
+        chance_pairs(points_, dots.list(c), gate, rig.cameras[c].lens.width(), rig.cameras[c].lens.height());
     for (const Assignment& a : assigner_.assign(points_, dots.list(c), dots.grid(c), gate, dots.claimed(c))) {
       const RigDot* ray = dots.ray(c, a.dot);
       if (ray == nullptr) continue;

@@ -24,11 +24,15 @@ class BodyPairing {
   void pair(SeenDots& dots, const Rig& rig, const TargetBody& body, const PredictedPose& prediction,
             const AssignmentGate& gate, StaticVector<Pairing, limits::kTargetPairs>& out) noexcept;
 
+  /// Pairs the last call would have made, in the mean, of dots at random.
+  double chance() const { return chance_; }
+
  private:
   void predict(const RigCamera& camera, const TargetBody& body, const PredictedPose& prediction) noexcept;
 
   StaticVector<PredictedPoint, limits::kTargetsPerBody> points_;
   Assigner assigner_;
+  double chance_ = 0;
 };
 
 /// The cones, one per camera, that hold all targets of the body as seen from that camera: no star is looked

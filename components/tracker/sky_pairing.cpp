@@ -39,10 +39,13 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
                       const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
                       std::span<const HiddenCone> hidden,
                       StaticVector<Pairing, limits::kStarPairs>& out) noexcept {
+  chance_ = 0;
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
     found_[c].clear();
     if (dots.list(c).dots.empty()) continue;
     predict(rig.cameras[c], c, stars, prediction, magnitude_limit, hidden);
+    chance_ +=
+        chance_pairs(points_, dots.list(c), gate, rig.cameras[c].lens.width(), rig.cameras[c].lens.height());
     for (const Assignment& a : assigner_.assign(points_, dots.list(c), dots.grid(c), gate, dots.claimed(c))) {
       if (dots.ray(c, a.dot) != nullptr) found_[c].push_back({points_[a.prediction].entry, a.dot});
     }

@@ -37,6 +37,9 @@ class SkyPairing {
             const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
             std::span<const HiddenCone> hidden, StaticVector<Pairing, limits::kStarPairs>& out) noexcept;
 
+  /// Pairs the last call would have made, in the mean, of dots at random.
+  double chance() const { return chance_; }
+
  private:
   void predict(const RigCamera& camera, std::size_t camera_index, std::span<const SkyStar> stars,
                const PredictedAttitude& prediction, float magnitude_limit,
@@ -51,6 +54,7 @@ class SkyPairing {
   StaticVector<PredictedPoint, Assigner::kPredictions> points_;
   std::array<StaticVector<Found, limits::kDotsPerCamera>, limits::kCameras> found_;
   Assigner assigner_;
+  double chance_ = 0;
 };
 
 }  // namespace omma

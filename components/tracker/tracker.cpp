@@ -78,7 +78,7 @@ void Tracker::track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count)
     if (!predictable(tracked.prediction.ready(), tracked.prediction.last_time_ns())) continue;
     const PredictedPose prediction = tracked.prediction.at(dots->time_ns);
     body_pairing_.pair(seen_, rig_, *tracked.body, prediction, parameters_.gate, out.pairs);
-    if (static_cast<int>(out.pairs.size()) < parameters_.least_target_pairs) {
+    if (!beyond_chance(out.pairs.size(), body_pairing_.chance(), parameters_.least_target_pairs)) {
       for (const Pairing& pair : out.pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
       out.pairs.clear();
       tracked.prediction.reset();
@@ -98,7 +98,7 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
   const PredictedAttitude prediction = sky_prediction_.at(dots->time_ns);
   sky_pairing_.pair(seen_, rig_, catalogue_.stars(), prediction, parameters_.faintest_star, parameters_.gate,
                     cones, sky.pairs);
-  if (static_cast<int>(sky.pairs.size()) < parameters_.least_star_pairs) {
+  if (!beyond_chance(sky.pairs.size(), sky_pairing_.chance(), parameters_.least_star_pairs)) {
     for (const Pairing& pair : sky.pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
     sky.pairs.clear();
     sky_prediction_.reset();

@@ -12,9 +12,9 @@ struct TrackerParameters {
   double sky_angular_acceleration = 0.02;   ///< of the rig, not modelled [rad/s²]
   double body_angular_acceleration = 0.05;  ///< of a body relative to the rig, not modelled [rad/s²]
   double body_linear_acceleration = 0.05;   ///< of a body relative to the rig, not modelled [m/s²]
-  int least_star_pairs = 5;                 ///< fewer while tracking: the sky is lost and searched again
-  int least_target_pairs = 4;               ///< fewer while tracking: the body is lost and searched again
-  int patience = 3;                         ///< frame sets a prediction is trusted without a new estimate
+  int least_star_pairs = 5;    ///< fewer beyond chance while tracking: the sky is lost and searched again
+  int least_target_pairs = 4;  ///< fewer beyond chance while tracking: the body is lost and searched again
+  int patience = 3;            ///< frame sets a prediction is trusted without a new estimate
 };
 
 }  // namespace omma

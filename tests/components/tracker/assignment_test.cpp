@@ -118,5 +118,39 @@ TEST_F(Assignments, AreOneToOneAndRightAmongManyDots) {
   }
 }
 
+TEST(ChancePairs, AreAsManyAsDotsAtRandomGive) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> u(0, 639);
+  std::uniform_real_distribution<double> v(0, 479);
+  const AssignmentGate gate;
+  auto assigner = std::make_unique<Assigner>();
+  auto grid = std::make_unique<DotGrid>();
+  auto dots = std::make_unique<DotList>();
+  double made = 0;
+  double expected = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    dots->dots.clear();
+    for (int i = 0; i < 300; ++i) {
+      Dot dot;
+      dot.pixel = {u(random), v(random)};
+      dot.covariance = 0.01 * Eigen::Matrix2d::Identity();
+      dots->dots.push_back(dot);
+    }
+    std::vector<PredictedPoint> predictions(200);
+    for (PredictedPoint& point : predictions) {
+      point.pixel = {u(random), v(random)};
+      point.covariance = Eigen::Vector2d(0.05, 0.01).asDiagonal();
+    }
+    grid->build(*dots, 640, 480);
+    made += static_cast<double>(assigner->assign(predictions, *dots, *grid, gate, {}).size());
+    expected += chance_pairs(predictions, *dots, gate, 640, 480);
+  }
+  EXPECT_NEAR(made / expected, 1, 0.1);
+  EXPECT_FALSE(beyond_chance(15, 15, 5));
+  EXPECT_FALSE(beyond_chance(40, 15, 5));
+  EXPECT_TRUE(beyond_chance(50, 15, 5));
+  EXPECT_TRUE(beyond_chance(5, 0, 5));
+}
+
 }  // namespace
 }  // namespace omma

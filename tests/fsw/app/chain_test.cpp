@@ -183,10 +183,21 @@ TEST_F(Chain, TouchesNoMemoryInAThousandFrameSets) {
   const memory_guard::Violations before = memory_guard::violations();
   const std::vector<FrameSetResult> results = fly(2, 1000 / kFrameSets);
   EXPECT_EQ(results.size(), 1000U);
-  const auto solved = std::count_if(results.begin(), results.end(), [](const FrameSetResult& result) {
-    return result.attitude.valid && result.poses.bodies[0].valid;
-  });
-  EXPECT_EQ(solved, 1000);
+  int right = 0, wrong = 0;
+  for (std::size_t f = 0; f < results.size(); ++f) {
+    const AttitudeEstimate& attitude = results[f].attitude;
+    const PoseEstimate& card = results[f].poses.bodies[0];
+    const sim::SceneInstant truth = sim::scene_at(scenario(), scenario().time_of(f % kFrameSets));
+    const bool attitude_right =
+        attitude.solution.rig_from_j2000.angularDistance(truth.rig_from_j2000) < 60 * kArcsec;
+    const double range = truth.rig_from_body[0].translation.norm();
+    const bool card_right =
+        (card.solution.rig_from_body.translation - truth.rig_from_body[0].translation).norm() < 0.01 * range;
+    right += attitude.valid && attitude_right && card.valid && card_right ? 1 : 0;
+    wrong += (attitude.valid && !attitude_right) || (card.valid && !card_right) ? 1 : 0;
+  }
+  EXPECT_EQ(right, 1000);
+  EXPECT_EQ(wrong, 0);
   EXPECT_EQ(memory_guard::violations().allocations, before.allocations);
   EXPECT_EQ(memory_guard::violations().releases, before.releases);
   EXPECT_EQ(memory_guard::violations().mappings, before.mappings);

@@ -128,7 +128,7 @@ TEST(ChancePairs, AreAsManyAsDotsAtRandomGive) {
   auto dots = std::make_unique<DotList>();
   double made = 0;
   double expected = 0;
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < 3000; ++trial) {
     dots->dots.clear();
     for (int i = 0; i < 300; ++i) {
       Dot dot;

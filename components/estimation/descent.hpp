@@ -86,8 +86,10 @@ Descent<kUnknowns> descend(std::span<const Sight> sights, std::span<const double
     const Pose next = moved<kUnknowns>(descent.pose, step);
     const double promised = step.dot(here.information * step);
     if (damping < 1e-2 && promised < kNegligibleStep) {
-      descent.pose = next;
-      descent.converged = true;
+      // A damped step can be small where no undamped one exists: the sights leave an unknown free.
+      descent.singular = damping > 0 && !damped_step<kUnknowns>(here, 0, step);
+      if (!descent.singular) descent.pose = next;
+      descent.converged = !descent.singular;
       break;
     }
     descent.gave_up = descent.iterations > kIterationsBeforeGivingUp && here.cost - promised > largest_cost;

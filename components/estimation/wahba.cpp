@@ -25,13 +25,17 @@ WahbaSolution Wahba::solve() const noexcept {
   solution.body_from_reference = Eigen::Quaterniond(sign * q(3), sign * q(0), sign * q(1), sign * q(2));
   solution.loss = std::max(0.0, 2 * weight_ * (1 - eigen.eigenvalues()(3)));
 
+  solution.observable = covariance(solution.covariance);
+  return solution;
+}
+
+bool Wahba::covariance(Eigen::Matrix3d& covariance) const noexcept {
   const Eigen::Matrix3d information = information_ / weight_;
   // Directions along one line leave the turn about it free: the smallest eigenvalue of the information is
   // zero. For two directions at the angle φ it is about φ²/4 of the weight; 1e-12 is 0.4".
-  if (information.determinant() < 1e-12) return solution;
-  solution.covariance = information.inverse() / weight_;
-  solution.observable = true;
-  return solution;
+  if (!(information.determinant() >= 1e-12)) return false;
+  covariance = information.inverse() / weight_;
+  return true;
 }
 
 }  // namespace omma

@@ -32,8 +32,14 @@ class Wahba {
 
   WahbaSolution solve() const noexcept;
 
+  // What the sums are, for other solutions of the same problem.
+  const Eigen::Matrix3d& profile() const noexcept { return profile_; }  ///< B = Σ wᵢ bᵢ rᵢᵀ
+  double weight() const noexcept { return weight_; }                    ///< Σ wᵢ
+  /// (Σ wᵢ (I − bᵢ bᵢᵀ))⁻¹, Shuster and Oh's covariance; false where the directions do not fix the rotation.
+  bool covariance(Eigen::Matrix3d& covariance) const noexcept;
+
  private:
-  Eigen::Matrix3d profile_ = Eigen::Matrix3d::Zero();      // B = Σ wᵢ bᵢ rᵢᵀ
+  Eigen::Matrix3d profile_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();  // Σ wᵢ (I − bᵢ bᵢᵀ)
   double weight_ = 0;
 };

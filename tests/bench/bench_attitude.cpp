@@ -6,6 +6,7 @@
 #include <random>
 
 #include "components/estimation/least_squares.hpp"
+#include "tests/bench/bench_attitude_methods.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/rig_problem.hpp"
@@ -91,6 +92,7 @@ int bench_attitude(int argc, char** argv) {
                         {"8 stars, start 0.1 deg off", 8, 0.1},
                         {"200 stars, start 0.1 deg off", 200, 0.1}};
   for (const Case& c : cases) run(c, trials);
+  compare_attitude_methods(trials);
   return 0;
 }
 

@@ -109,6 +109,24 @@ TEST(Attitude, OneStarOrStarsInOneDirectionAreNotObservable) {
             SolveStatus::kUnobservable);
 }
 
+TEST(Attitude, NoisyStarsOnOneLineAreNotObservable) {
+  // The line's ends seen with noise: the answer is near, a small damped step away, but the turn about the
+  // line is free.
+  std::mt19937_64 random(14);
+  for (int trial = 0; trial < 500; ++trial) {
+    const Eigen::Quaterniond truth = rotation_exp(random_direction(random) * 3);
+    std::vector<Sight> sights = random_stars(6, truth, random);
+    const Eigen::Vector3d line = sights[0].point;
+    for (std::size_t i = 0; i < sights.size(); ++i) {
+      const Eigen::Vector3d ray = truth * sights[i].point;
+      const Eigen::Quaterniond onto =
+          Eigen::Quaterniond::FromTwoVectors(ray, truth * (i % 2 == 0 ? line : Eigen::Vector3d(-line)));
+      sights[i] = isotropic_sight({0, 0, 0}, onto * sights[i].ray, kSigma, i % 2 == 0 ? line : -line);
+    }
+    EXPECT_EQ(solve_attitude(sights, truth, {}, {}).status, SolveStatus::kUnobservable) << trial;
+  }
+}
+
 TEST(Attitude, ASightWithoutNumbersIsLeftOut) {
   std::mt19937_64 random(5);
   const Eigen::Quaterniond truth = rotation_exp(random_direction(random));

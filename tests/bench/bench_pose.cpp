@@ -1,12 +1,14 @@
 // Pose from paired targets on the peers' problem (rig_problem.hpp): time, error over the Cramér–Rao bound,
 // NEES, failures (beyond 6 σ), iterations. Peers on the same problem and machine, median µs for N = 8/20/60:
-// PoseLib 11.7/19.9/49 warm and 62/91/186 cold, Ceres 33/57/126 warm.
+// PoseLib 11.7/19.9/49 warm and 62/91/186 cold, Ceres 33/57/126 warm. `--methods`: the reference methods of
+// ground/methods instead, side by side with ours.
 #include <Eigen/LU>
 #include <cstdio>
 #include <vector>
 
 #include "components/estimation/least_squares.hpp"
 #include "components/estimation/pose_search.hpp"
+#include "tests/bench/bench_pose_methods.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/rig_problem.hpp"
@@ -144,6 +146,10 @@ void warm_outliers(int trials) {
 
 int bench_pose(int argc, char** argv) {
   const int trials = option(argc, argv, "--trials", 400);
+  if (has_option(argc, argv, "--methods")) {
+    compare_pose_methods(trials);
+    return 0;
+  }
   warm(trials);
   cold("cold", trials, {8, 20, 60}, [](RigProblemOptions&) {});
   cold("cold, one camera", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.cameras = 1; });

@@ -54,6 +54,13 @@ inline const char* text_option(int argc, char** argv, const char* name, const ch
   return fallback;
 }
 
+/// True where `--name` is among the arguments.
+inline bool has_option(int argc, char** argv, const char* name) {
+  for (int i = 1; i < argc; ++i)
+    if (std::strcmp(argv[i], name) == 0) return true;
+  return false;
+}
+
 /// Value of `--name N` among the arguments, or `fallback`.
 inline int option(int argc, char** argv, const char* name, int fallback) {
   for (int i = 1; i + 1 < argc; ++i)

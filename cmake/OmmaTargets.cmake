@@ -20,8 +20,13 @@ target_compile_options(omma_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Wextra-semi>
   # GCC 12 sees overlapping copies in std::string where there are none (GCC bug 105329).
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict>
+  # GCC tells on 32-bit ARM how its ABI differs from that of GCC 6; nothing here is linked with anything that old.
+  $<$<STREQUAL:${CMAKE_SYSTEM_PROCESSOR},arm>:-Wno-psabi>
   # The same bits on every machine: no fused multiply-add behind our back, no fast-math anywhere.
   -ffp-contract=off)
+# Eigen's own vectors are fused on ARM whatever the compiler is told, and not on x86-64: without them both
+# compute the same bits. What is hot is written with the compiler's vectors (components/extractor/lanes.hpp).
+target_compile_definitions(omma_options INTERFACE EIGEN_DONT_VECTORIZE)
 target_include_directories(omma_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 if(OMMA_SANITIZE)
   target_compile_options(omma_options INTERFACE -fsanitize=${OMMA_SANITIZE} -fno-omit-frame-pointer
@@ -50,7 +55,8 @@ function(omma_program name)
 endfunction()
 
 # omma_test(NAME SOURCES ... [LIBS ...] [TIMEOUT s]): a GoogleTest program; each of its tests is a ctest test.
-# OMMA_SHARED_DATA and OMMA_SOURCE_DIR reach the tests as macros.
+# OMMA_SHARED_DATA, OMMA_SOURCE_DIR, OMMA_BINARY_DIR and OMMA_RUN (what a shell puts before the name of one of our
+# programs to run it for a minute at most) reach the tests as macros. A test's label is its folder: fsw, ground, ...
 function(omma_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -58,9 +64,19 @@ function(omma_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE omma_options ${ARG_LIBS} GTest::gtest GTest::gmock GTest::gtest_main)
+  set(minute 60)
+  if(CMAKE_CROSSCOMPILING_EMULATOR)  # about twenty times slower
+    math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")
+    set(minute 600)
+  endif()
+  list(JOIN CMAKE_CROSSCOMPILING_EMULATOR " " emulator)
+  file(RELATIVE_PATH label ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "/.*" "" label "${label}")
   target_compile_definitions(${name} PRIVATE
+    OMMA_RUN="timeout ${minute} ${emulator} ${PROJECT_BINARY_DIR}/bin/"
     OMMA_SHARED_DATA="${OMMA_SHARED_DATA}" OMMA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     OMMA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${ARG_TIMEOUT})
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES
+    TIMEOUT ${ARG_TIMEOUT} LABELS ${label} ENVIRONMENT "OMMA_LAUNCHER=${emulator}")
 endfunction()

@@ -4,17 +4,18 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 say() { printf '\033[1m==> %s\033[0m\n' "$*"; }
 
-# Names in packages.txt that dpkg does not know as installed.
+# missing_packages LIST...: names in those files that dpkg does not know as installed.
 missing_packages() {
   local name
-  grep -vE '^\s*(#|$)' packages.txt | while read -r name; do
+  grep -hvE '^\s*(#|$)' "$@" | while read -r name; do
     dpkg-query -W -f='${Status}' "$name" 2>/dev/null | grep -q 'ok installed' || echo "$name"
   done
 }
 
+# install_packages [LIST...]; packages.txt where none is named
 install_packages() {
   local missing sudo=""
-  missing=$(missing_packages | tr '\n' ' ')
+  missing=$(missing_packages "${@:-packages.txt}" | tr '\n' ' ')
   [ -z "${missing// /}" ] && return 0
   say "Installing from Debian: $missing"
   if [ "$(id -u)" -ne 0 ]; then sudo="sudo"; fi
@@ -31,4 +32,11 @@ build_preset() {
   say "Building ($preset) in build/$preset"
   [ -f "build/$preset/build.ninja" ] || cmake --preset "$preset" >/dev/null
   cmake --build --preset "$preset" ${1:+--target "$@"}
+}
+
+# cross_build arm64|armhf [TARGET]: the sysroot where there is none, then the cross-build
+cross_build() {
+  install_packages packages.txt packages-cross.txt
+  scripts/cross_sysroot.sh "$1" "build/sysroot-$1"
+  build_preset "$@"
 }

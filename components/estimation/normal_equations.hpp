@@ -62,14 +62,12 @@ template <int kUnknowns>
 NormalEquations<kUnknowns> normal_equations(std::span<const Sight> sights, std::span<const double> weights,
                                             const Pose& pose) noexcept {
   // Both rows of a residual ride side by side in one two-lane register; their sums meet only at the end.
-  using Pair = Eigen::Array2d;
+  using Pair = double __attribute__((vector_size(2 * sizeof(double))));
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   const Eigen::Vector3d translation = pose.translation;
-  Pair information[kUnknowns * (kUnknowns + 1) / 2];
-  Pair gradient[kUnknowns];
-  Pair cost = Pair::Zero();
-  for (Pair& sum : information) sum.setZero();
-  for (Pair& sum : gradient) sum.setZero();
+  Pair information[kUnknowns * (kUnknowns + 1) / 2] = {};
+  Pair gradient[kUnknowns] = {};
+  Pair cost = {};
 
   for (std::size_t i = 0; i < sights.size(); ++i) {
     const double weight = weights.empty() ? 1.0 : weights[i];
@@ -77,8 +75,8 @@ NormalEquations<kUnknowns> normal_equations(std::span<const Sight> sights, std::
     const Sight& sight = sights[i];
     const Prediction<kUnknowns> predicted(sight, rotation, translation);
     const Eigen::Vector3d& u = predicted.direction;
-    const Pair w[3] = {sight.whitener.col(0).array(), sight.whitener.col(1).array(),
-                       sight.whitener.col(2).array()};
+    Pair w[3];
+    for (int k = 0; k < 3; ++k) w[k] = Pair{sight.whitener(0, k), sight.whitener(1, k)};
     const Pair residual = w[0] * u.x() + w[1] * u.y() + w[2] * u.z();
 
     // ∂r/∂d = W (I − u uᵀ) / |d| = (W − r uᵀ) / |d|, and d moves by δθ × R g + δt.

@@ -6,8 +6,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "ground/page/page.hpp"
 #include "ground/simulate/render_recording.hpp"
@@ -17,6 +21,13 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What OMMA_LAUNCHER puts before the flight program: an emulator, or `taskset -c 1`.
+std::vector<std::string> launcher() {
+  const char* words = std::getenv("OMMA_LAUNCHER");
+  std::istringstream stream(words == nullptr ? "" : words);
+  return {std::istream_iterator<std::string>(stream), {}};
 }
 
 // Runs the flight program with its output in a file; its exit code.
@@ -31,7 +42,7 @@ int spawn_flight(std::vector<std::string> arguments, const std::string& output) 
                                    0644);
   posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   pid_t child = 0;
-  const int failure = posix_spawn(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
+  const int failure = posix_spawnp(&child, pointers[0], &actions, nullptr, pointers.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::runtime_error(arguments[0] + ": cannot be started");
   int status = 0;
@@ -55,8 +66,10 @@ ChainRun run_chain(const sim::Scenario& scenario, const std::filesystem::path& m
   const std::string log = (folder / "flight.mcap").string();
   const std::string words = (folder / "flight.txt").string();
   start = std::chrono::steady_clock::now();
-  const int code = spawn_flight(
-      {program.string(), mission.string(), "--no-dds", "--frames", frames.string(), "--log", log}, words);
+  std::vector<std::string> command = launcher();
+  command.insert(command.end(),
+                 {program.string(), mission.string(), "--no-dds", "--frames", frames.string(), "--log", log});
+  const int code = spawn_flight(std::move(command), words);
   run.flight_seconds = seconds_since(start);
   if (code != 0) {
     throw std::runtime_error(program.string() + " ended with exit code " + std::to_string(code) + ", see " +

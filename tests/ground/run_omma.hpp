@@ -45,8 +45,8 @@ class OperatorsFolder {
 
   /// `omma ARGUMENTS` with this folder as the working folder.
   Told omma(const std::string& arguments) const {
-    const std::string command = "cd '" + path_.string() + "' && '" OMMA_BINARY_DIR "/bin/omma' " + arguments +
-                                " >stdout.txt 2>stderr.txt";
+    const std::string command =
+        "cd '" + path_.string() + "' && " OMMA_RUN "omma " + arguments + " >stdout.txt 2>stderr.txt";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("stdout.txt"), read("stderr.txt")};
   }

@@ -27,7 +27,7 @@ inline ProgramRun run_program(const std::string& command, const std::string& out
 }
 
 inline ProgramRun run_omma(const std::string& arguments, const std::string& outputs = "2>&1") {
-  return run_program("timeout 60 " OMMA_BINARY_DIR "/bin/omma " + arguments, outputs);
+  return run_program(OMMA_RUN "omma " + arguments, outputs);
 }
 
 }  // namespace omma::test

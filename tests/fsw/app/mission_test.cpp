@@ -110,8 +110,8 @@ TEST_F(MissionFile, WithASpacecraftNameThatNoTopicCanHaveIsRefused) {
 TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
   replace("demo.toml", "spacecraft = \"demo\"", "spacecraft = \"cubesat-1\"");
   const auto told = [&](const std::string& option) {
-    const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() + option +
-                                " > " + (folder_ / "said").string();
+    const std::string command =
+        OMMA_RUN "omma-fsw " + file().string() + option + " > " + (folder_ / "said").string();
     EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0);
     std::ostringstream said;
     said << std::ifstream(folder_ / "said").rdbuf();
@@ -149,8 +149,7 @@ TEST_F(MissionFile, NamesTheRigFileOfALensThatIsMissing) {
 
 TEST_F(MissionFile, ThatIsWrongEndsTheFlightProgramWithTwo) {
   replace("demo.toml", "bits = 12", "bits = 99");
-  const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() + " 2> " +
-                              (folder_ / "said").string();
+  const std::string command = OMMA_RUN "omma-fsw " + file().string() + " 2> " + (folder_ / "said").string();
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   std::ostringstream said;
@@ -166,8 +165,8 @@ TEST_F(MissionFile, WithFramesOfAnotherSizeEndsTheFlightProgramWithTwo) {
     std::filesystem::create_directories(frames / camera);
     write_png(frames / camera / (std::string(camera) + "_000000.png"), small.view());
   }
-  const std::string command = std::string(OMMA_BINARY_DIR) + "/bin/omma-fsw " + file().string() +
-                              " --frames " + frames.string() + " 2> " + (folder_ / "said").string();
+  const std::string command = OMMA_RUN "omma-fsw " + file().string() + " --frames " + frames.string() +
+                              " 2> " + (folder_ / "said").string();
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
 }
 

@@ -39,9 +39,9 @@ TEST(ExampleComponent, FollowsItsTargetNoFasterThanItsRate) {
 }
 
 TEST(ExampleTopology, RunsAsThePageSays) {
-  const std::string output = output_of(std::string(OMMA_BINARY_DIR) + "/bin/example-topology");
+  const std::string output = output_of(OMMA_RUN "example-topology");
   EXPECT_EQ(output.substr(0, 30), "0.00\n-0.10\n-0.20\n-0.30\n-0.40\n-");
-  EXPECT_NE(output_of(std::string(OMMA_BINARY_DIR) + "/bin/example-topology --graph")
+  EXPECT_NE(output_of(OMMA_RUN "example-topology --graph")
                 .find("c2 -> c0 [label=\"target\\nlatest\", style=dashed]"),
             std::string::npos);
 }

@@ -32,8 +32,8 @@ class ReportProgram : public testing::Test {
     std::filesystem::create_directories(folder_);
     render_recording(scenario, folder_ / "frames", 2);
     const test::ProgramRun flight =
-        test::run_program("timeout 60 " OMMA_BINARY_DIR "/bin/omma-fsw " + kConfig +
-                          "demo.toml --no-dds --frames " + path("frames") + " --log " + path("demo.mcap"));
+        test::run_program(OMMA_RUN "omma-fsw " + kConfig + "demo.toml --no-dds --frames " + path("frames") +
+                          " --log " + path("demo.mcap"));
     ASSERT_EQ(flight.exit_code, 0) << flight.output;
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -1,13 +1,30 @@
 #include "components/attitude/attitude.hpp"
 
+#include <algorithm>
+
+#include "components/estimation/mean_rate.hpp"
+
 namespace omma {
+namespace {
+
+double seconds(TimeNs interval_ns) {
+  return 1e-9 * static_cast<double>(interval_ns);
+}
+
+}  // namespace
 
 void Attitude::visit_ports(PortVisitor& visitor) const {
   visitor.input("pairings", pairings);
+  if (uses_gyro()) visitor.input("rates", rates);
   visitor.output("estimate", estimate);
 }
 
 void Attitude::step(const Tick& /*tick*/) noexcept {
+  solve_frame_set();
+  if (parameters_.filter == AttitudeFilterKind::kMekf) filter_frame_set();
+}
+
+void Attitude::solve_frame_set() noexcept {
   AttitudeEstimate& out = *estimate;
   const SkyPairings& sky = pairings->sky;
   out.frame = pairings->frame;
@@ -32,14 +49,48 @@ void Attitude::step(const Tick& /*tick*/) noexcept {
   Eigen::Quaterniond& q = out.solution.rig_from_j2000;
   if (has_last_ && q.dot(last_) < 0) q.coeffs() = -q.coeffs();
   if (has_last_ && out.time_ns > last_time_ns_) {
-    // A star turns against the rig: R(t + dt) = exp(−[ω]× dt) R(t).
-    const double dt = 1e-9 * static_cast<double>(out.time_ns - last_time_ns_);
-    out.rate = -rotation_log(q * last_.conjugate()) / dt;
+    const MeanRate mean =
+        mean_rate(last_, last_covariance_, q, out.solution.covariance, seconds(out.time_ns - last_time_ns_));
+    out.rate = mean.rate;
+    out.rate_covariance = mean.covariance;
     out.rate_valid = true;
   }
   has_last_ = true;
   last_ = q;
+  last_covariance_ = out.solution.covariance;
   last_time_ns_ = out.time_ns;
+}
+
+void Attitude::filter_frame_set() noexcept {
+  AttitudeEstimate& out = *estimate;
+  predict_to(out.time_ns);
+  out.filtered.innovation_chi2 = 0;
+  if (out.valid) {
+    const FilterUpdate update = filter_.update(out.solution.rig_from_j2000, out.solution.covariance);
+    if (update != FilterUpdate::kStarted) out.filtered.innovation_chi2 = filter_.innovation_chi2();
+  }
+  out.filtered.valid = filter_.valid();
+  out.filtered.rig_from_j2000 = filter_.rig_from_j2000();
+  out.filtered.covariance = filter_.attitude_covariance();
+  out.filtered.rate = filter_.rate();
+  out.filtered.rate_covariance = filter_.rate_covariance();
+  out.filtered.gyro_bias = filter_.gyro_bias();
+}
+
+// By the gyro where it measured, by the rate as it was where it did not.
+void Attitude::predict_to(TimeNs time_ns) noexcept {
+  if (uses_gyro()) {
+    for (const RateMeasurement& measured : rates->intervals) {
+      const TimeNs from = std::max(measured.from_ns, filter_time_ns_);
+      const TimeNs to = std::min(measured.to_ns, time_ns);
+      if (to <= from) continue;
+      filter_.predict(seconds(from - filter_time_ns_));
+      filter_.predict(seconds(to - from), measured.rate);
+      filter_time_ns_ = to;
+    }
+  }
+  filter_.predict(seconds(time_ns - filter_time_ns_));
+  filter_time_ns_ = std::max(filter_time_ns_, time_ns);
 }
 
 }  // namespace omma

@@ -162,11 +162,21 @@ void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept {
   put_matrix(solution.covariance, out.covariance_rad2);
   out.rate_valid = attitude.rate_valid;
   out.rate_rad_s = vector(attitude.rate);
+  put_matrix(attitude.rate_covariance, out.rate_covariance_rad2_s2);
   out.chi2 = solution.chi2;
   out.residual_rms_rad = solution.residual_rms;
   out.stars_used = solution.pairs;
   out.stars_culled = solution.culled;
   out.iterations = solution.iterations;
+  const FilteredAttitude& filtered = attitude.filtered;
+  out.filtered = filtered.valid;
+  if (!filtered.valid) return;
+  out.valid = true;
+  out.rig_from_j2000 = quaternion(filtered.rig_from_j2000);
+  put_matrix(filtered.covariance, out.covariance_rad2);
+  out.rate_valid = true;
+  out.rate_rad_s = vector(filtered.rate);
+  put_matrix(filtered.rate_covariance, out.rate_covariance_rad2_s2);
 }
 
 void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePose& out) noexcept {

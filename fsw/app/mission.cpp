@@ -95,6 +95,23 @@ TrackerParameters read_tracker(const TomlTable& table) {
   return p;
 }
 
+AttitudeParameters read_attitude(const TomlTable& table, double frame_rate_hz) {
+  AttitudeParameters p;
+  const std::string filter = table.text("filter", "none");
+  if (filter == "mekf") {
+    p.filter = AttitudeFilterKind::kMekf;
+  } else if (filter != "none") {
+    throw table.error("filter", "\"none\" or \"mekf\"", filter);
+  }
+  p.mekf.acceleration_density =
+      table.number("acceleration_density", {1e-9, 100}, p.mekf.acceleration_density);
+  // A turn between two frame sets is known short of a whole one.
+  p.mekf.first_rate_sigma = std::min(p.mekf.first_rate_sigma, 0.3 * frame_rate_hz);
+  p.least_pairs = static_cast<int>(table.integer("least_pairs", {3, 100}, p.least_pairs));
+  table.refuse_unknown_keys();
+  return p;
+}
+
 // The spacecraft's name is a part of every topic's name.
 bool is_topic_part(const std::string& name) {
   const auto fits = [](char c) {
@@ -130,6 +147,8 @@ Mission read_mission(const std::filesystem::path& file) {
   if (root.has("recording")) mission.recording = root.path("recording");
   mission.bodies = read_bodies(root);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
+  if (const auto attitude = root.table_if("attitude"))
+    mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
   if (const auto imaging = root.table_if("imaging")) {
     mission.panorama_width =
         static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));

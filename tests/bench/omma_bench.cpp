@@ -17,6 +17,8 @@ constexpr Bench kBenches[] = {
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
     {"extract", omma::bench_extract,
      "dots of synthetic images: time over memcpy, error over bound, NEES, recall, false dots"},
+    {"filter", omma::bench_filter,
+     "attitude and rate over many frame sets: error, NEES, with and without gyro"},
     {"identify", omma::bench_identify, "stars lost in space: solved, wrong, time, hypotheses"},
     {"lens", omma::bench_lens, "pixel to bearing and back, each lens model: time per call"},
     {"jitter", omma::bench_jitter, "lateness of steps against a bare clock_nanosleep loop in the same run"},

@@ -66,6 +66,20 @@ TEST_F(MissionFile, OfTheDemoIsRead) {
   EXPECT_EQ(mission.bodies[0].targets.size(), 25U);
 }
 
+TEST_F(MissionFile, MayAskForAnAttitudeFilter) {
+  EXPECT_EQ(read_mission(file()).attitude.filter, AttitudeFilterKind::kNone);
+  replace("demo.toml", "[imaging]",
+          "[attitude]\nfilter = \"mekf\"\nacceleration_density = 2e-4\n\n[imaging]");
+  const Mission mission = read_mission(file());
+  EXPECT_EQ(mission.attitude.filter, AttitudeFilterKind::kMekf);
+  EXPECT_EQ(mission.attitude.mekf.acceleration_density, 2e-4);
+}
+
+TEST_F(MissionFile, WithAFilterThatDoesNotExistIsRefused) {
+  replace("demo.toml", "[imaging]", "[attitude]\nfilter = \"ekf\"\n\n[imaging]");
+  EXPECT_THAT(message(), HasSubstr("filter: expected \"none\" or \"mekf\", found ekf"));
+}
+
 TEST_F(MissionFile, ThatIsMissingIsNamed) {
   std::filesystem::remove(file());
   EXPECT_THAT(message(), HasSubstr("demo.toml: "));

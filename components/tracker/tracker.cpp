@@ -45,7 +45,8 @@ void Tracker::step(const Tick& /*tick*/) noexcept {
   const std::span<const HiddenCone> hidden(cones.data(), cone_count);
   track_sky(hidden);
   if (out.sky.state == TrackState::kLost) acquire_sky(hidden);
-  acquire_bodies();
+  // A body's targets outshine the stars: once they are claimed the sky may be found among the rest.
+  if (acquire_bodies() > 0 && out.sky.state == TrackState::kLost) acquire_sky(hidden);
   count_persistence();
   count_unclaimed();
 }
@@ -121,10 +122,15 @@ void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   sky.rig_from_j2000 = found.rig_from_j2000;
 }
 
-void Tracker::acquire_bodies() noexcept {
+int Tracker::acquire_bodies() noexcept {
+  int acquired = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (pairings->bodies[b].state == TrackState::kLost) acquire_body(bodies_[b], pairings->bodies[b]);
+    BodyPairings& out = pairings->bodies[b];
+    if (out.state != TrackState::kLost) continue;
+    acquire_body(bodies_[b], out);
+    acquired += out.state == TrackState::kAcquired ? 1 : 0;
   }
+  return acquired;
 }
 
 void Tracker::acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept {

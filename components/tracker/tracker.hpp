@@ -53,7 +53,7 @@ class Tracker final : public Component {
   void track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept;
   void track_sky(std::span<const HiddenCone> cones) noexcept;
   void acquire_sky(std::span<const HiddenCone> cones) noexcept;
-  void acquire_bodies() noexcept;
+  int acquire_bodies() noexcept;  ///< how many
   void acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept;
   void count_persistence() noexcept;
   void count_unclaimed() noexcept;

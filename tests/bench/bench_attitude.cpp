@@ -9,6 +9,7 @@
 #include "tests/bench/bench_attitude_methods.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/repeatability.hpp"
 #include "tests/bench/rig_problem.hpp"
 
 namespace omma {
@@ -80,6 +81,19 @@ void run(const Case& c, int trials) {
               std::sqrt(squared / bound), nees / n, iterations / n, most_iterations, failures);
 }
 
+void print_attitude_repeats() {
+  std::mt19937_64 random(7);
+  std::vector<std::vector<Sight>> inputs;
+  std::vector<Eigen::Quaterniond> starts;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Quaterniond truth = rotation_exp(random_direction(random) * 0.15 * i);
+    inputs.push_back(random_sky(30, truth, random));
+    starts.push_back(rotation_exp(random_direction(random) * 5 * kDegree) * truth);
+  }
+  print_repeats("30 stars, start 5 deg off", inputs.size(), most_iterations({}),
+                [&](std::size_t i) { return solve_attitude(inputs[i], starts[i], {}, {}); });
+}
+
 }  // namespace
 
 int bench_attitude(int argc, char** argv) {
@@ -92,6 +106,7 @@ int bench_attitude(int argc, char** argv) {
                         {"8 stars, start 0.1 deg off", 8, 0.1},
                         {"200 stars, start 0.1 deg off", 200, 0.1}};
   for (const Case& c : cases) run(c, trials);
+  print_attitude_repeats();
   compare_attitude_methods(trials);
   return 0;
 }

@@ -8,9 +8,11 @@
 
 #include "components/estimation/least_squares.hpp"
 #include "components/estimation/pose_search.hpp"
+#include "tests/bench/bench_fisheye_card.hpp"
 #include "tests/bench/bench_pose_methods.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/repeatability.hpp"
 #include "tests/bench/rig_problem.hpp"
 
 namespace omma {
@@ -142,6 +144,25 @@ void warm_outliers(int trials) {
   }
 }
 
+void repeats() {
+  std::printf("\n");
+  for (const int n : {8, 20, 60}) {
+    RigProblemOptions options;
+    options.targets = n;
+    options.outlier_fraction = n == 60 ? 0.2 : 0;
+    std::vector<RigProblem> problems;
+    for (std::uint64_t seed = 0; seed < 20; ++seed)
+      problems.push_back(make_rig_problem(options, kFirstSeed + seed));
+    char name[64];
+    std::snprintf(name, sizeof name, "N = %d%s, warm", n, n == 60 ? ", 20 % mis-paired" : "");
+    print_repeats(name, problems.size(), most_iterations({}),
+                  [&](std::size_t i) { return solve_pose(problems[i].sights, problems[i].prior, {}, {}); });
+    std::snprintf(name, sizeof name, "N = %d%s, cold", n, n == 60 ? ", 20 % mis-paired" : "");
+    print_repeats(name, problems.size(), most_iterations({}),
+                  [&](std::size_t i) { return find_pose(problems[i].sights, {}, {}); });
+  }
+}
+
 }  // namespace
 
 int bench_pose(int argc, char** argv) {
@@ -159,6 +180,8 @@ int bench_pose(int argc, char** argv) {
   cold("cold, 20 % mis-paired", trials, {20, 60}, [](RigProblemOptions& o) { o.outlier_fraction = 0.2; });
   basin(trials);
   warm_outliers(trials);
+  bench_fisheye_card(5 * trials);
+  repeats();
   return 0;
 }
 

@@ -14,6 +14,8 @@ struct Bench {
 
 // One line a bench.
 constexpr Bench kBenches[] = {
+    {"acquire", omma::bench_acquire,
+     "cold start, dots to attitude and pose: time, solved, wrong, error over bound, NEES"},
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
     {"extract", omma::bench_extract,
      "dots of synthetic images: time over memcpy, error over bound, NEES, recall, false dots"},

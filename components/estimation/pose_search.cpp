@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "components/estimation/flat_card.hpp"
+#include "components/estimation/generalised_three_point.hpp"
 #include "components/estimation/normal_equations.hpp"
-#include "components/estimation/three_point_pose.hpp"
 #include "fsw/kernel/static_vector.hpp"
 
 namespace omma {
@@ -18,13 +18,18 @@ constexpr std::size_t kRefined = 3;  // candidates carried to the least-squares 
 constexpr double kNearlyAll = 0.95;  // of the sights: no better triple is to be hoped for
 constexpr double kMost = 0.7;        // of the sights: after kFewTriples more, good enough
 constexpr std::size_t kFewTriples = 5;
-constexpr double kLeastExplained = 0.6;  // of the sights: a wrong pose does not explain so many
-constexpr double kImprobable = 4.0;      // χ² this many of its standard deviations too large is not noise
+constexpr double kLeastExplained = 0.6;    // of the sights: a wrong pose does not explain so many
+constexpr double kAlikeRotation = 0.9997;  // cosine of half the angle: 2.8°
+constexpr double kAlikePosition = 0.03;    // of the distance
+constexpr std::size_t kFewSights = 12;
+constexpr double kImprobable = 4.0;  // χ² this many of its standard deviations too large is not noise
 
 struct Triple {
   std::array<std::uint16_t, 3> sights;
   double squared_area = 0;  ///< of the triangle in the body, 4 × squared [m⁴]
 };
+
+using Triples = StaticVector<Triple, kMostTriples>;
 
 struct Candidate {
   Pose pose;
@@ -51,28 +56,47 @@ std::size_t sort_round_the_body(std::span<const Sight> sights, std::span<std::ui
   return n;
 }
 
+Triple triple_of(std::span<const Sight> sights, std::uint16_t a, std::uint16_t b, std::uint16_t c) noexcept {
+  const Eigen::Vector3d& origin = sights[a].point;
+  return {{a, b, c}, (sights[b].point - origin).cross(sights[c].point - origin).squaredNorm()};
+}
+
+bool wider(const Triple& a, const Triple& b) noexcept {
+  return a.squared_area > b.squared_area || (a.squared_area == b.squared_area && a.sights < b.sights);
+}
+
 /// Triples of sights about a third of a turn apart: first those that share no sight, then others; in each
 /// family the widest triangles first.
-StaticVector<Triple, kMostTriples> spread_triples(std::span<const Sight> sights) noexcept {
+Triples spread_triples(std::span<const Sight> sights) noexcept {
   std::array<std::uint16_t, kMaxSights> order;
   const std::size_t n = sort_round_the_body(sights, order);
-  StaticVector<Triple, kMostTriples> triples;
+  Triples triples;
   const std::size_t third = n / 3;
   // Family f takes positions k, k + third + f, k + 2 third + 2 f (mod n).
   for (std::size_t family = 0; family < std::max<std::size_t>(1, third) && !triples.full(); ++family) {
     const std::size_t begin = triples.size();
     for (std::size_t k = 0; k < third && !triples.full(); ++k) {
-      Triple triple;
-      triple.sights = {order[k], order[(k + third + family) % n], order[(k + 2 * third + 2 * family) % n]};
-      const Eigen::Vector3d a = sights[triple.sights[1]].point - sights[triple.sights[0]].point;
-      const Eigen::Vector3d b = sights[triple.sights[2]].point - sights[triple.sights[0]].point;
-      triple.squared_area = a.cross(b).squaredNorm();
+      const Triple triple = triple_of(sights, order[k], order[(k + third + family) % n],
+                                      order[(k + 2 * third + 2 * family) % n]);
       if (triple.squared_area > 0) triples.push_back(triple);
     }
-    std::sort(triples.begin() + begin, triples.end(), [](const Triple& a, const Triple& b) {
-      return a.squared_area > b.squared_area || (a.squared_area == b.squared_area && a.sights < b.sights);
-    });
+    std::sort(triples.begin() + begin, triples.end(), wider);
   }
+  return triples;
+}
+
+/// The widest of all triples of few sights.
+Triples all_triples(std::span<const Sight> sights) noexcept {
+  StaticVector<Triple, kFewSights*(kFewSights - 1) * (kFewSights - 2) / 6> all;
+  for (std::uint16_t a = 0; a < sights.size(); ++a)
+    for (std::uint16_t b = a + 1; b < sights.size(); ++b)
+      for (std::uint16_t c = b + 1; c < sights.size(); ++c) {
+        const Triple triple = triple_of(sights, a, b, c);
+        if (triple.squared_area > 0) all.push_back(triple);  // false for NaN
+      }
+  std::sort(all.begin(), all.end(), wider);
+  Triples triples;
+  for (std::size_t i = 0; i < all.size() && !triples.full(); ++i) triples.push_back(all[i]);
   return triples;
 }
 
@@ -92,19 +116,33 @@ Candidate measured(std::span<const Sight> sights, const Pose& pose, double gate)
   return candidate;
 }
 
+/// Two poses that one descent would bring together, as far as can be told.
+bool alike(const Pose& a, const Pose& b) noexcept {
+  return std::abs(a.rotation.dot(b.rotation)) > kAlikeRotation &&
+         (a.translation - b.translation).squaredNorm() <
+             kAlikePosition * kAlikePosition * a.translation.squaredNorm();
+}
+
+/// The best, each unlike the others.
 void keep(const Candidate& candidate, StaticVector<Candidate, kRefined>& best) noexcept {
-  if (best.full()) {
-    if (!(candidate.cost < best.back().cost)) return;
-    best.pop_back();
+  std::size_t at = 0;
+  while (at < best.size() && !alike(best[at].pose, candidate.pose)) ++at;
+  if (at == best.size() && !best.full()) {
+    best.push_back(candidate);
+  } else {
+    at = std::min(at, best.size() - 1);
+    if (!(candidate.cost < best[at].cost)) return;
+    best[at] = candidate;
+    std::rotate(best.begin() + at, best.begin() + at + 1, best.end());
   }
-  best.push_back(candidate);
   for (std::size_t i = best.size() - 1; i > 0 && best[i].cost < best[i - 1].cost; --i)
     std::swap(best[i], best[i - 1]);
 }
 
-StaticVector<Candidate, kRefined> best_candidates(std::span<const Sight> sights) noexcept {
+/// @param to_the_end  tries every triple; else stops where no better one is to be hoped for
+StaticVector<Candidate, kRefined> best_candidates(std::span<const Sight> sights, const Triples& triples,
+                                                  bool to_the_end) noexcept {
   StaticVector<Candidate, kRefined> best;
-  const StaticVector<Triple, kMostTriples> triples = spread_triples(sights);
   const auto n = static_cast<double>(sights.size());
   for (std::size_t t = 0; t < triples.size(); ++t) {
     ThreePoints three;
@@ -114,10 +152,11 @@ StaticVector<Candidate, kRefined> best_candidates(std::span<const Sight> sights)
       three.ray[i] = sight.ray;
       three.point[i] = sight.point;
     }
-    std::array<Pose, kMostThreePointPoses> poses;
+    std::array<Pose, kMostGeneralisedPoses> poses;
     const int found = generalised_three_point(three, poses);
     for (int p = 0; p < found; ++p)
       keep(measured(sights, poses[static_cast<std::size_t>(p)], kCoarseGate), best);
+    if (to_the_end) continue;
     const double part = best.empty() ? 0 : static_cast<double>(best[0].explained) / n;
     if ((t + 1 >= kFewestTriplesTried && part >= kNearlyAll) || (t + 1 >= kFewTriples && part >= kMost))
       break;
@@ -135,6 +174,53 @@ bool explained_by_noise(const PoseSolution& solution, std::size_t offered) noexc
          solution.pairs >= kLeastExplained * static_cast<double>(offered);
 }
 
+/// A candidate that may lead to another minimum than those known, and explains the sights nearly as well.
+/// With many sights no wrong minimum is explained by noise.
+bool rivals(const Candidate& candidate, const PoseSolution& best, std::size_t sights) noexcept {
+  return sights <= kFewSights &&
+         static_cast<double>(candidate.explained) >= kLeastExplained * static_cast<double>(sights) &&
+         !alike(candidate.pose, best.rig_from_body) &&
+         !(best.has_alternative && alike(candidate.pose, best.alternative));
+}
+
+/// The best solution among those that candidates lead to.
+class Search {
+ public:
+  Search(std::span<const Sight> sights, const SolveOptions& options, const PoseSolution& nothing)
+      : sights_(sights), options_(options), refining_(options), best_(nothing) {
+    refining_.initial_gate = kCoarseGate;
+  }
+
+  void refine(const StaticVector<Candidate, kRefined>& candidates) noexcept {
+    for (const Candidate& candidate : candidates) {
+      const bool explained = explained_by_noise(best_, sights_.size());
+      if (explained && !rivals(candidate, best_, sights_.size())) continue;
+      std::array<std::uint8_t, kMaxSights> used{};
+      PoseSolution solution = solve_pose(sights_, candidate.pose, refining_, {used.data(), sights_.size()});
+      const double cost = measured(sights_, solution.rig_from_body, options_.gate).cost;
+      const bool better = cost < cost_;
+      if (explained && solved(solution) && !alike(solution.rig_from_body, best_.rig_from_body) &&
+          std::abs(cost - cost_) < options_.ambiguity_margin)
+        (better ? solution : best_).ambiguous = true;
+      if (!better) continue;
+      cost_ = cost;
+      best_ = solution;
+      used_ = used;
+    }
+  }
+
+  const PoseSolution& best() const { return best_; }
+  const std::array<std::uint8_t, kMaxSights>& used() const { return used_; }
+
+ private:
+  std::span<const Sight> sights_;
+  const SolveOptions& options_;
+  SolveOptions refining_;
+  PoseSolution best_;
+  double cost_ = std::numeric_limits<double>::infinity();
+  std::array<std::uint8_t, kMaxSights> used_{};
+};
+
 }  // namespace
 
 PoseSolution find_pose(std::span<const Sight> sights, const SolveOptions& options,
@@ -146,21 +232,14 @@ PoseSolution find_pose(std::span<const Sight> sights, const SolveOptions& option
   std::fill(used.begin(), used.end(), std::uint8_t{0});
   if (sights.size() < 3) return best;
 
-  SolveOptions refining = options;
-  refining.initial_gate = kCoarseGate;
-  double best_cost = std::numeric_limits<double>::infinity();
-  for (const Candidate& candidate : best_candidates(taken)) {
-    std::array<std::uint8_t, kMaxSights> flags{};
-    const std::span<std::uint8_t> these(flags.data(), taken.size());
-    const PoseSolution solution = solve_pose(taken, candidate.pose, refining, these);
-    const double cost = measured(taken, solution.rig_from_body, options.gate).cost;
-    if (!(cost < best_cost)) continue;
-    best_cost = cost;
-    best = solution;
-    best.culled = static_cast<std::uint16_t>(sights.size() - solution.pairs);
-    std::copy_n(flags.begin(), std::min(used.size(), taken.size()), used.begin());
-    if (explained_by_noise(solution, sights.size())) break;
-  }
+  Search search(taken, options, best);
+  search.refine(best_candidates(taken, spread_triples(taken), false));
+  // Of few sights a wrong pose may explain most; what leaves some out is not believed before all was tried.
+  const bool whole = explained_by_noise(search.best(), sights.size()) && search.best().pairs == sights.size();
+  if (!whole && taken.size() <= kFewSights) search.refine(best_candidates(taken, all_triples(taken), true));
+  best = search.best();
+  best.culled = static_cast<std::uint16_t>(sights.size() - best.pairs);
+  std::copy_n(search.used().begin(), std::min(used.size(), taken.size()), used.begin());
   return best;
 }
 

@@ -10,9 +10,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kAfar = 10;  // first distance of the body, in sizes of its triangle
-constexpr int kRoundsToMiddle = 3;
-
 /// Squared sides of the triangle 12, 13, 23, and −2 cos of the angles between the rays: the equations are
 /// lᵢ² + lⱼ² + bᵢⱼ lᵢ lⱼ = aᵢⱼ for the distances l along the rays.
 struct Triangle {
@@ -130,16 +127,25 @@ int central_distances(const Triangle& t, std::array<Vector3d, kMostThreePointPos
   return count;
 }
 
-/// Newton on |oᵢ + lᵢ vᵢ − oⱼ − lⱼ vⱼ|² = aᵢⱼ from `l`; false where it does not converge in front of the
-/// cameras.
-bool polish_distances(const ThreePoints& s, const Triangle& t, int iterations, Vector3d& l) noexcept {
+bool triangle_of(const ThreePoints& s, Triangle& t) noexcept {
+  const Vector3d d12 = s.point[0] - s.point[1], d13 = s.point[0] - s.point[2], d23 = s.point[1] - s.point[2];
+  t = {d12.squaredNorm(),           d13.squaredNorm(),           d23.squaredNorm(),
+       -2 * s.ray[0].dot(s.ray[1]), -2 * s.ray[0].dot(s.ray[2]), -2 * s.ray[1].dot(s.ray[2])};
+  const double area2 = d12.cross(d13).squaredNorm();
+  return area2 > 1e-10 * t.a12 * t.a13 && t.a23 > 0;
+}
+
+}  // namespace
+
+bool polish_distances(const ThreePoints& s, int iterations, Vector3d& l) noexcept {
+  const double a12 = (s.point[0] - s.point[1]).squaredNorm(), a13 = (s.point[0] - s.point[2]).squaredNorm(),
+               a23 = (s.point[1] - s.point[2]).squaredNorm();
   for (int i = 0; i < iterations; ++i) {
     const Vector3d x1 = s.origin[0] + l[0] * s.ray[0], x2 = s.origin[1] + l[1] * s.ray[1],
                    x3 = s.origin[2] + l[2] * s.ray[2];
     const Vector3d d12 = x1 - x2, d13 = x1 - x3, d23 = x2 - x3;
-    const double r1 = d12.squaredNorm() - t.a12, r2 = d13.squaredNorm() - t.a13,
-                 r3 = d23.squaredNorm() - t.a23;
-    if (std::abs(r1) + std::abs(r2) + std::abs(r3) < 1e-14 * (t.a12 + t.a13 + t.a23)) return l.minCoeff() > 0;
+    const double r1 = d12.squaredNorm() - a12, r2 = d13.squaredNorm() - a13, r3 = d23.squaredNorm() - a23;
+    if (std::abs(r1) + std::abs(r2) + std::abs(r3) < 1e-14 * (a12 + a13 + a23)) return l.minCoeff() > 0;
     // Half the Jacobian is [p −q 0; u 0 −v; 0 x −y], inverted by hand.
     const double p = d12.dot(s.ray[0]), q = d12.dot(s.ray[1]), u = d13.dot(s.ray[0]), v = d13.dot(s.ray[2]),
                  x = d23.dot(s.ray[1]), y = d23.dot(s.ray[2]);
@@ -154,22 +160,12 @@ bool polish_distances(const ThreePoints& s, const Triangle& t, int iterations, V
   if (!(l.minCoeff() > 0)) return false;
   const Vector3d x1 = s.origin[0] + l[0] * s.ray[0], x2 = s.origin[1] + l[1] * s.ray[1],
                  x3 = s.origin[2] + l[2] * s.ray[2];
-  const double left = std::abs((x1 - x2).squaredNorm() - t.a12) + std::abs((x1 - x3).squaredNorm() - t.a13) +
-                      std::abs((x2 - x3).squaredNorm() - t.a23);
-  return left < 1e-6 * (t.a12 + t.a13 + t.a23);
+  const double left = std::abs((x1 - x2).squaredNorm() - a12) + std::abs((x1 - x3).squaredNorm() - a13) +
+                      std::abs((x2 - x3).squaredNorm() - a23);
+  return left < 1e-6 * (a12 + a13 + a23);
 }
 
-/// The triangle as seen from the mean centre, were its corners at distances `l` along their rays.
-Triangle seen_from_middle(const ThreePoints& s, const Triangle& t, const Vector3d& l) noexcept {
-  const Vector3d middle = (s.origin[0] + s.origin[1] + s.origin[2]) / 3;
-  const Vector3d r1 = (s.origin[0] + l[0] * s.ray[0] - middle).normalized(),
-                 r2 = (s.origin[1] + l[1] * s.ray[1] - middle).normalized(),
-                 r3 = (s.origin[2] + l[2] * s.ray[2] - middle).normalized();
-  return {t.a12, t.a13, t.a23, -2 * r1.dot(r2), -2 * r1.dot(r3), -2 * r2.dot(r3)};
-}
-
-/// The rotation and translation that take the body's triangle to the one at distances `l`.
-Pose pose_of(const ThreePoints& s, const Vector3d& l) noexcept {
+Pose pose_at_distances(const ThreePoints& s, const Vector3d& l) noexcept {
   const auto frame = [](const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     Matrix3d axes;
     axes.col(0) = (b - a).normalized();
@@ -186,61 +182,19 @@ Pose pose_of(const ThreePoints& s, const Vector3d& l) noexcept {
   return pose;
 }
 
-bool triangle_of(const ThreePoints& s, Triangle& t) noexcept {
-  const Vector3d d12 = s.point[0] - s.point[1], d13 = s.point[0] - s.point[2], d23 = s.point[1] - s.point[2];
-  t = {d12.squaredNorm(),           d13.squaredNorm(),           d23.squaredNorm(),
-       -2 * s.ray[0].dot(s.ray[1]), -2 * s.ray[0].dot(s.ray[2]), -2 * s.ray[1].dot(s.ray[2])};
-  const double area2 = d12.cross(d13).squaredNorm();
-  return area2 > 1e-10 * t.a12 * t.a13 && t.a23 > 0;
-}
-
-int poses_of(const ThreePoints& sights, const Triangle& triangle, int polish,
-             std::array<Vector3d, kMostThreePointPoses>& distances, int found,
-             std::array<Pose, kMostThreePointPoses>& rig_from_body) noexcept {
-  int count = 0;
-  for (int i = 0; i < found; ++i) {
-    Vector3d& l = distances[static_cast<std::size_t>(i)];
-    if (!polish_distances(sights, triangle, polish, l)) continue;
-    rig_from_body[static_cast<std::size_t>(count++)] = pose_of(sights, l);
-  }
-  return count;
-}
-
-}  // namespace
-
 int central_three_point(const ThreePoints& sights,
                         std::array<Pose, kMostThreePointPoses>& rig_from_body) noexcept {
   Triangle triangle;
   if (!triangle_of(sights, triangle)) return 0;
   std::array<Vector3d, kMostThreePointPoses> distances;
   const int found = central_distances(triangle, distances);
-  return poses_of(sights, triangle, 2, distances, found, rig_from_body);
-}
-
-int generalised_three_point(const ThreePoints& sights,
-                            std::array<Pose, kMostThreePointPoses>& rig_from_body) noexcept {
-  Triangle triangle;
-  if (!triangle_of(sights, triangle)) return 0;
-  std::array<Vector3d, kMostThreePointPoses> distances;
-  // How far the body is decides how its rays meet in the middle of the rig, and the other way round: go round
-  // from afar, following each solution by itself.
-  const double size = std::sqrt(std::max({triangle.a12, triangle.a13, triangle.a23}));
-  const Triangle from_afar = seen_from_middle(sights, triangle, Vector3d::Constant(kAfar * size));
-  const int found = central_distances(from_afar, distances);
+  int count = 0;
   for (int i = 0; i < found; ++i) {
     Vector3d& l = distances[static_cast<std::size_t>(i)];
-    for (int round = 0; round < kRoundsToMiddle; ++round) {
-      std::array<Vector3d, kMostThreePointPoses> again;
-      const int count = central_distances(seen_from_middle(sights, triangle, l), again);
-      if (count == 0) break;
-      const Vector3d before = l;
-      const auto last = again.begin() + count;
-      l = *std::min_element(again.begin(), last, [&before](const Vector3d& a, const Vector3d& b) {
-        return (a - before).squaredNorm() < (b - before).squaredNorm();
-      });
-    }
+    if (!polish_distances(sights, 2, l)) continue;
+    rig_from_body[static_cast<std::size_t>(count++)] = pose_at_distances(sights, l);
   }
-  return poses_of(sights, triangle, 10, distances, found, rig_from_body);
+  return count;
 }
 
 }  // namespace omma

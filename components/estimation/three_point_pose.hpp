@@ -1,10 +1,7 @@
-// Minimal solvers: pose of a body from three of its points seen along three rays. Central (one camera), and
-// generalised (each ray from its own camera centre).
-// Sources: Persson & Nordberg 2018, "Lambda Twist" (central: the three distances by intersecting two conics
-// through one root of a cubic); Nistér & Stewénius 2007 (the generalised problem and its eight solutions).
-// The generalised one here starts Newton's method on the three distances from the central solutions about the
-// mean of the centres: exact, and it finds the solutions that a rig small against its distance to the body
-// has.
+// Minimal solver: pose of a body from three of its points seen along three rays of one camera, and what the
+// generalised solver (generalised_three_point.hpp) shares with it.
+// Source: Persson & Nordberg 2018, "Lambda Twist" (the three distances by intersecting two conics through one
+// root of a cubic).
 #pragma once
 
 #include <Eigen/Core>
@@ -29,8 +26,11 @@ struct ThreePoints {
 int central_three_point(const ThreePoints& sights,
                         std::array<Pose, kMostThreePointPoses>& rig_from_body) noexcept;
 
-/// The same for rays from different centres.
-int generalised_three_point(const ThreePoints& sights,
-                            std::array<Pose, kMostThreePointPoses>& rig_from_body) noexcept;
+/// Newton on |oᵢ + lᵢ vᵢ − oⱼ − lⱼ vⱼ|² = aᵢⱼ², the sides of the triangle, from the distances `l` along the
+/// rays; false where it does not settle in front of the cameras. Origins may differ.
+bool polish_distances(const ThreePoints& sights, int iterations, Eigen::Vector3d& l) noexcept;
+
+/// The rotation and translation that take the body's triangle to the one at distances `l`.
+Pose pose_at_distances(const ThreePoints& sights, const Eigen::Vector3d& l) noexcept;
 
 }  // namespace omma

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "components/estimation/generalised_three_point.hpp"
 #include "components/estimation/normal_equations.hpp"
-#include "ground/methods/octic_three_point.hpp"
 
 namespace omma {
 namespace {
@@ -53,8 +53,8 @@ PoseAnswer three_point_alone(std::span<const Sight> sights) {
     three.ray[i] = sights[corners[i]].ray;
     three.point[i] = sights[corners[i]].point;
   }
-  std::array<Pose, kMostOcticPoses> poses;
-  const int found = octic_three_point(three, poses);
+  std::array<Pose, kMostGeneralisedPoses> poses;
+  const int found = generalised_three_point(three, poses);
   double lowest = std::numeric_limits<double>::infinity();
   for (int i = 0; i < found; ++i) {
     const Pose& pose = poses[static_cast<std::size_t>(i)];

@@ -177,6 +177,11 @@ int bench_pose(int argc, char** argv) {
   cold("cold, relief 5 cm", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.depth = 0.05; });
   cold("cold, three cards around", trials, {20}, [](RigProblemOptions& o) { o.surround = true; });
   cold("cold, 95 deg off every axis", trials, {8, 20, 60}, [](RigProblemOptions& o) { o.off_axis_deg = 95; });
+  cold("cold, centres 1 m apart", trials, {6, 8, 20}, [](RigProblemOptions& o) { o.baseline = 1; });
+  cold("cold, 1 m apart, 40 % mis-paired", trials, {20, 60}, [](RigProblemOptions& o) {
+    o.baseline = 1;
+    o.outlier_fraction = 0.4;
+  });
   cold("cold, 20 % mis-paired", trials, {20, 60}, [](RigProblemOptions& o) { o.outlier_fraction = 0.2; });
   basin(trials);
   warm_outliers(trials);

@@ -50,6 +50,23 @@ TEST(ColdStart, FindsThePoseOfAFlatCardAsOftenAsTheGlobalMinimumDoes) {
   EXPECT_EQ(few.silent, 0);
 }
 
+TEST(ColdStart, WorksForARigAsLargeAsItsDistance) {
+  // Solutions of three points that one camera in the middle of the rig would not have are the rule here.
+  for (const double depth : {0.0, 0.1}) {
+    for (const double outliers : {0.0, 0.4}) {
+      RigProblemOptions options;
+      options.baseline = 1.0;
+      options.depth = depth;
+      options.range = 0.8;
+      options.targets = outliers > 0 ? 20 : 8;
+      options.outlier_fraction = outliers;
+      const Score wide = score_cold(options, 300);
+      EXPECT_LE(wide.failures, 2) << depth << ", " << outliers;
+      EXPECT_LE(wide.silent, 1) << depth << ", " << outliers;
+    }
+  }
+}
+
 TEST(ColdStart, WorksForReliefForOneCameraForNoCommonFieldAndBehindTheCameras) {
   RigProblemOptions relief;
   relief.depth = 0.05;

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+
+#include "components/estimation/generalised_three_point.hpp"
 
 namespace omma {
 namespace {
@@ -34,13 +37,13 @@ double distance(const Pose& a, const Pose& b) {
   return (a.translation - b.translation).norm() + a.rotation.angularDistance(b.rotation);
 }
 
-template <class Solver>
+template <std::size_t kMost, class Solver>
 int solved_of(int trials, double baseline, Solver&& solver) {
   std::mt19937_64 random(5);
   int solved = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const Scene scene = random_scene(random, baseline);
-    std::array<Pose, kMostThreePointPoses> poses;
+    std::array<Pose, kMost> poses;
     const int count = solver(scene.sights, poses);
     double nearest = 1e9;
     for (int i = 0; i < count; ++i) {
@@ -57,14 +60,18 @@ int solved_of(int trials, double baseline, Solver&& solver) {
 }
 
 TEST(ThreePointPose, OneCameraFindsTheTruePoseAndOnlyPosesThatFit) {
-  EXPECT_GE(solved_of(20000, 0.0, central_three_point), 19950);
+  EXPECT_GE(solved_of<kMostThreePointPoses>(20000, 0.0, central_three_point), 19950);
 }
 
-TEST(ThreePointPose, ARigSmallAgainstItsDistanceFindsTheTruePose) {
-  // Centres 2 % of the range apart: nearly always; 5 %: solutions that a single camera in the middle would
-  // not have are missed, and other triples must serve.
-  EXPECT_GE(solved_of(5000, 0.005, generalised_three_point), 4800);
-  EXPECT_GE(solved_of(5000, 0.05, generalised_three_point), 4250);
+TEST(ThreePointPose, ARigOfAnySizeFindsTheTruePose) {
+  // Centres from a hair's breadth apart to half the range: solutions that one camera in the middle would not
+  // have are found as well.
+  for (const double baseline : {1e-7, 1e-4, 0.005, 0.05, 0.2, 1.5})
+    EXPECT_GE(solved_of<kMostGeneralisedPoses>(2000, baseline, generalised_three_point), 1980) << baseline;
+}
+
+TEST(ThreePointPose, RaysFromOneCentreAreTheCentralProblem) {
+  EXPECT_GE(solved_of<kMostGeneralisedPoses>(2000, 0.0, generalised_three_point), 1995);
 }
 
 TEST(ThreePointPose, PointsInLineGiveNoPose) {
@@ -76,6 +83,11 @@ TEST(ThreePointPose, PointsInLineGiveNoPose) {
   }
   std::array<Pose, kMostThreePointPoses> poses;
   EXPECT_EQ(central_three_point(sights, poses), 0);
+  sights.origin[1].x() = 0.1;
+  std::array<Pose, kMostGeneralisedPoses> more;
+  EXPECT_EQ(generalised_three_point(sights, more), 0);
+  sights.point[1].y() = std::nan("");
+  EXPECT_EQ(generalised_three_point(sights, more), 0);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "ground/methods/four_light_pose.hpp"
 #include "ground/methods/map_ransac_pose.hpp"
 #include "ground/methods/object_space_pose.hpp"
-#include "ground/methods/octic_three_point.hpp"
 #include "ground/methods/ranges_pose.hpp"
 #include "ground/methods/three_point_alone.hpp"
 #include "tests/bench/rig_problem.hpp"
@@ -46,30 +45,6 @@ TEST(ReferencePose, IsExactWithoutNoise) {
       }
     }
   }
-}
-
-TEST(OcticThreePoint, HasTheTruthAmongItsSolutions) {
-  // Any three targets, rays from three cameras 0.1 m apart: the solver that starts from the central solutions
-  // has it in a third of these.
-  int missed = 0;
-  RigProblemOptions options = without_noise(3);
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
-    const RigProblem problem = make_rig_problem(options, seed);
-    ThreePoints three;
-    for (std::size_t i = 0; i < 3; ++i) {
-      three.origin[i] = problem.sights[i].origin;
-      three.ray[i] = problem.sights[i].ray;
-      three.point[i] = problem.sights[i].point;
-    }
-    std::array<Pose, kMostOcticPoses> poses;
-    const int found = octic_three_point(three, poses);
-    ASSERT_LE(found, kMostOcticPoses);
-    bool has_truth = false;
-    for (int i = 0; i < found; ++i)
-      has_truth |= pose_error(poses[static_cast<std::size_t>(i)], problem.truth).norm() < 1e-5;
-    missed += has_truth ? 0 : 1;
-  }
-  EXPECT_LE(missed, 2);
 }
 
 TEST(ReferencePose, RangesAsUnknownsAndObjectSpaceShareOneMinimum) {

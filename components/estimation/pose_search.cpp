@@ -88,9 +88,10 @@ Triples spread_triples(std::span<const Sight> sights) noexcept {
 /// The widest of all triples of few sights.
 Triples all_triples(std::span<const Sight> sights) noexcept {
   StaticVector<Triple, kFewSights*(kFewSights - 1) * (kFewSights - 2) / 6> all;
-  for (std::uint16_t a = 0; a < sights.size(); ++a)
-    for (std::uint16_t b = a + 1; b < sights.size(); ++b)
-      for (std::uint16_t c = b + 1; c < sights.size(); ++c) {
+  const auto n = static_cast<std::uint16_t>(sights.size());
+  for (std::uint16_t a = 0; a < n; ++a)
+    for (std::uint16_t b = a + 1; b < n; ++b)
+      for (std::uint16_t c = b + 1; c < n; ++c) {
         const Triple triple = triple_of(sights, a, b, c);
         if (triple.squared_area > 0) all.push_back(triple);  // false for NaN
       }

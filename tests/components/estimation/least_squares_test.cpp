@@ -100,6 +100,29 @@ TEST(Attitude, CullsWrongPairsAndSaysWhich) {
   }
 }
 
+TEST(Attitude, OneStrayOfManyIsCulledHoweverFarOffItIs) {
+  std::mt19937_64 random(15);
+  for (const double sigmas : {10.0, 30.0, 100.0, 1e3, 1e5}) {
+    double nees = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const Eigen::Quaterniond truth = rotation_exp(random_direction(random) * 2);
+      std::vector<Sight> sights = random_stars(20 + trial, truth, random);
+      Sight& stray = sights[7];
+      const Eigen::Vector3d off = stray.ray.cross(random_direction(random)).normalized();
+      const Eigen::Vector3d ray = rotation_exp(off * std::min(sigmas * kSigma, 3.0)) * stray.ray;
+      stray = isotropic_sight({0, 0, 0}, ray, kSigma, stray.point);
+      std::vector<std::uint8_t> used(sights.size());
+      const AttitudeSolution solution = solve_attitude(sights, truth, {}, used);
+      ASSERT_EQ(solution.status, SolveStatus::kSolved);
+      EXPECT_EQ(used[7], 0) << sigmas;
+      EXPECT_LE(solution.culled, 3) << sigmas;
+      const Eigen::Vector3d error = rotation_log(truth * solution.rig_from_j2000.conjugate());
+      nees += error.dot(solution.covariance.inverse() * error) / 200;
+    }
+    EXPECT_NEAR(nees, 3.0, 0.6) << sigmas;
+  }
+}
+
 TEST(Attitude, OneStarOrStarsInOneDirectionAreNotObservable) {
   std::mt19937_64 random(4);
   std::vector<Sight> sights = random_stars(1, Eigen::Quaterniond::Identity(), random);

@@ -178,14 +178,17 @@ int bench_acquire(int argc, char** argv) {
   for (RigCamera& camera : three.cameras)
     camera.rig_from_camera.translation = camera.rig_from_camera.rotation * Eigen::Vector3d(0, 0, 0.1);
   const Rig fisheye = equidistant_rig(1, 187);
-  ColdFrameOptions stars_alone, noisy, cluttered, bright;
+  ColdFrameOptions stars_alone, unknown, noisy, cluttered, bright;
   stars_alone.card = false;
+  unknown = stars_alone;
+  unknown.false_fraction = 0.5;
   noisy.noise_px = 0.3;
   cluttered.false_fraction = 0.3;
   bright = cluttered;
   bright.bright_false = true;
   int wrong = 0;
   wrong += run("three 122 deg cameras, stars alone", three, stars_alone, trials);
+  wrong += run("the same, half the dots false, no card to be found", three, unknown, trials);
   wrong += run("three 122 deg cameras, stars and a card 49 in away", three, {}, trials);
   wrong += run("the same, 0.3 px", three, noisy, trials);
   wrong += run("the same, 0.1 px, 30 % false dots", three, cluttered, trials);

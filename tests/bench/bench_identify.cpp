@@ -5,6 +5,8 @@
 #include <memory>
 #include <numbers>
 
+#include "fsw/kernel/memory_guard.hpp"
+#include "fsw/kernel/real_time_scope.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/sky_problem.hpp"
@@ -35,7 +37,10 @@ int run(const Case& c, int trials) {
   int wrong = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const SkyProblem problem = random_sky(c.rig, catalogue->stars(), c.options, random);
-    times.push_back(cpu_microseconds([&] { identification->identify(problem.dots, *answer); }));
+    times.push_back(cpu_microseconds([&] {
+      const RealTimeScope scope;
+      identification->identify(problem.dots, *answer);
+    }));
     const SkyVerdict verdict = judge(problem, *answer);
     right += verdict == SkyVerdict::kRight ? 1 : 0;
     wrong += verdict == SkyVerdict::kWrong ? 1 : 0;
@@ -130,6 +135,9 @@ int bench_identify(int argc, char** argv) {
     if (++number == row || row == 0) wrong += run(c, trials);
   }
   if (row == 0 || row > number) wrong += run_nothing_there(option(argc, argv, "--false-skies", trials));
+  const std::uint64_t allocations = memory_guard::violations().total();
+  std::printf("allocations while identifying: %llu%s\n", static_cast<unsigned long long>(allocations),
+              memory_guard::installed() ? "" : " (not watched)");
   return wrong == 0 ? 0 : 1;
 }
 

@@ -10,8 +10,9 @@ Imaging::Imaging(const ImagingParameters& parameters, const Rig& rig)
       mosaic_(rig, parameters.table, parameters.footprint),
       panorama_(parameters.panorama),
       view_(parameters.view),
-      rows_per_step_(static_cast<int>(limits::kImageChunkBytes) / width()) {
-  if (rows_per_step_ < 1) {
+      full_rows_(static_cast<int>(limits::kImageChunkBytes) / width()),
+      rows_per_step_(full_rows_) {
+  if (full_rows_ < 1) {
     throw std::invalid_argument(
         "imaging: a row of " + std::to_string(width()) +
         " pixels is longer than limits::" + "kImageChunkBytes = " + std::to_string(limits::kImageChunkBytes));
@@ -31,6 +32,15 @@ int Imaging::width() const noexcept {
 
 int Imaging::height() const noexcept {
   return parameters_.kind == ImageKind::kView ? view_.height() : panorama_.height();
+}
+
+void Imaging::degrade(int level) noexcept {
+  rows_per_step_ = std::max(1, full_rows_ >> std::clamp(level, 0, 30));
+}
+
+void Imaging::skipped(const Tick& /*tick*/) noexcept {
+  chunk->valid = false;
+  chunk->rows = 0;
 }
 
 void Imaging::collect_images() noexcept {

@@ -39,6 +39,9 @@ class Imaging final : public Component {
   std::string_view name() const override { return "imaging"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  /// Half as many rows a step with each level: the same picture takes twice as long.
+  void degrade(int level) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
 
  private:
   int width() const noexcept;
@@ -52,6 +55,7 @@ class Imaging final : public Component {
   View view_;
   std::array<ImageView, limits::kCameras> images_{};
   OverlapSums sums_;
+  int full_rows_;  // that a chunk holds
   int rows_per_step_;
   int next_row_ = 0;
   int frame_sets_ = 0;  ///< since the picture was begun

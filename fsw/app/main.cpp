@@ -16,6 +16,7 @@
 #include "fsw/app/topology.hpp"
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/graph.hpp"
+#include "fsw/kernel/schedulability.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/services/schedule_events.hpp"
 
@@ -31,6 +32,7 @@ struct Arguments {
   bool no_dds = false;
   bool graph = false;
   bool dictionary = false;
+  bool schedule = false;
   int rounds = 1;
 };
 
@@ -56,12 +58,15 @@ void add_sinks(const Arguments& arguments, const omma::Mission& mission, omma::T
   }
 }
 
-/// The wiring as a picture, or all that the program sends as JSON: from the declarations it flies by.
+/// The wiring as a picture, the schedule as a table, or all that the program sends as JSON: from the
+/// declarations it flies by.
 int describe(const Arguments& arguments) {
-  omma::Topology topology(omma::read_mission(arguments.mission), {.with_cameras = false});
+  omma::Topology topology(omma::read_mission(arguments.mission),
+                          {.workers = arguments.workers, .with_cameras = false});
   const omma::RateGroupTable table = topology.table();
-  const std::string text =
-      arguments.graph ? omma::wiring_graph(table) : omma::program_dictionary(topology, table);
+  const std::string text = arguments.graph      ? omma::wiring_graph(table)
+                           : arguments.schedule ? omma::schedule_text(table, omma::processors_here())
+                                                : omma::program_dictionary(topology, table);
   return std::puts(text.c_str()) < 0 ? 2 : 0;
 }
 
@@ -91,6 +96,7 @@ int fly(const Arguments& arguments) {
   running = nullptr;
   output.stop();
 
+  say(topology.refusals());
   say(scheduler.refusals());
   say(output.failures());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);
@@ -117,16 +123,21 @@ int main(int argc, char** argv) {
   app.add_option("--rounds", arguments.rounds, "play the recording so many times, one after the other")
       ->check(CLI::Range(1, 100000));
   CLI::Option* graph = app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
-  app.add_flag("--dictionary", arguments.dictionary,
-               "print topics, events, rate groups and wiring (JSON) and leave")
-      ->excludes(graph);
+  CLI::Option* dictionary = app.add_flag("--dictionary", arguments.dictionary,
+                                         "print topics, events, rate groups and wiring (JSON) and leave")
+                                ->excludes(graph);
+  app.add_flag("--schedule", arguments.schedule,
+               "print the rate groups with their budgets and response times, and leave")
+      ->excludes(graph)
+      ->excludes(dictionary);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    return arguments.graph || arguments.dictionary ? describe(arguments) : fly(arguments);
+    const bool only_tell = arguments.graph || arguments.dictionary || arguments.schedule;
+    return only_tell ? describe(arguments) : fly(arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "omma-fsw: %s\n", error.what());
     return 2;

@@ -7,6 +7,9 @@
 namespace omma {
 namespace {
 
+constexpr int kVisionPriority = 60;
+constexpr int kHealthPriority = 10;
+
 StarCatalogue star_catalogue(const Mission& mission) {
   Observer observer;
   if (!mission.epoch_utc.empty()) observer.julian_date_utc = parse_utc(mission.epoch_utc);
@@ -80,7 +83,7 @@ telemetry::TelemetryNames telemetry_names(const Mission& mission) {
 
 Topology::Topology(const Mission& mission, const RunOptions& options)
     : mission_(mission),
-      pool_(options.workers),
+      pool_(options.workers, options.lockstep ? 0 : kVisionPriority),
       catalogue_(star_catalogue(mission_)),
       drivers_(camera_drivers(mission_, options)),
       sync_trigger(nullptr),
@@ -129,18 +132,18 @@ RateGroupTable Topology::table() {
   const auto period = microseconds(std::llround(1e6 / mission_.frame_rate_hz));
   return {.base_period = period,
           .groups = {{.name = "vision",
-                      .priority = 60,
+                      .priority = kVisionPriority,
                       .components = {{sync_trigger, microseconds(100)},
                                      {cameras, microseconds(2000)},
-                                     {extractor, microseconds(10000)},
+                                     {extractor, microseconds(10000), {}, pool_.workers()},
                                      {tracker, microseconds(15000)},
                                      {attitude, microseconds(2000)},
                                      {pose, microseconds(2000)},
-                                     {imaging, microseconds(10000)},
+                                     {imaging, microseconds(10000), {.reaction = BreachReaction::kDegrade}},
                                      {telemetry, microseconds(1000)}}},
                      {.name = "health",
                       .divisor = beats_per_second(mission_.frame_rate_hz),
-                      .priority = 10,
+                      .priority = kHealthPriority,
                       .components = {{health, microseconds(1000)}}}}};
 }
 

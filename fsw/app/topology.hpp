@@ -44,6 +44,8 @@ class Topology {
 
   const Mission& mission() const { return mission_; }
   RateGroupTable table();
+  /// Real-time privileges that the threads sharing the extraction were not granted.
+  const Refusals& refusals() const { return pool_.refusals(); }
   /// Frame sets until every recording has been played to its end.
   std::uint64_t frame_sets() const;
 

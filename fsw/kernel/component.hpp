@@ -32,6 +32,12 @@ class Component {
 
   /// Does one beat's work. Neither allocates, locks, blocks, throws, nor loops without a bound.
   virtual void step(const Tick& tick) noexcept = 0;
+
+  /// Its steps keep breaking their budget (BudgetRule), or no longer do: from the next step on it does with
+  /// less. 0: all it can do; each level further should cost clearly less. On the group's thread.
+  virtual void degrade(int /*level*/) noexcept {}
+  /// A beat in which `step` is left out: outputs that would be taken for new are withdrawn here.
+  virtual void skipped(const Tick&) noexcept {}
 };
 
 }  // namespace omma

@@ -36,6 +36,7 @@ GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const
     steps_.push_back(std::make_unique<Step>());
     steps_.back()->component = &scheduled.component;
     steps_.back()->budget_ns = scheduled.budget.count();
+    steps_.back()->watch = BudgetWatch(scheduled.on_breach);
   }
   for (const Connection& connection : wiring.connections) {
     if (connection.crossing == nullptr) continue;
@@ -85,6 +86,11 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
   TimeNs before = clock_.stopwatch();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     Step& step = *steps_[i];
+    if (left_out(step, tick)) {
+      before = clock_.stopwatch();  // none of it counts for the next component
+      mark.known = false;
+      continue;
+    }
     stay.begin();
     step.component->step(tick);
     for (Crossing* crossing : step.publish) crossing->publish();
@@ -97,6 +103,15 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
     before = after;
   }
   observer_.beat_finished(index_, tick);
+}
+
+bool GroupRunner::left_out(Step& step, const Tick& tick) noexcept {
+  if (step.skip_beats == 0) return false;
+  --step.skip_beats;
+  count_one(step.timing.skipped);
+  step.component->skipped(tick);
+  for (Crossing* crossing : step.publish) crossing->publish();
+  return true;
 }
 
 void GroupRunner::measure_cpu(StepTime& time, CpuMark& mark) noexcept {
@@ -116,9 +131,34 @@ void GroupRunner::judge(SchedulePlace place, const Tick& tick, const StepTime& t
   if (time.left_processor) count_one(step.timing.left_processor);
   observer_.component_stepped(place, tick, time);
   // In lockstep the replay must not depend on how fast this machine is.
-  if (step.budget_ns == 0 || time.wall_ns <= step.budget_ns || clock_.lockstep()) return;
-  count_one(step.timing.over_budget);
-  observer_.over_budget(place, tick, time, step.budget_ns);
+  if (step.budget_ns != 0 && !clock_.lockstep()) judge_budget(place, tick, time, step);
+}
+
+void GroupRunner::judge_budget(SchedulePlace place, const Tick& tick, const StepTime& time,
+                               Step& step) noexcept {
+  const bool breached = time.wall_ns > step.budget_ns;
+  if (breached) {
+    count_one(step.timing.over_budget);
+    observer_.over_budget(place, tick, time, step.budget_ns);
+  }
+  const BreachReaction reaction = step.watch.after_step(breached);
+  if (reaction != BreachReaction::kNone) react(place, tick, reaction, step);
+  const int level = step.timing.level.load(std::memory_order_relaxed);
+  if (level == 0 || !step.watch.recovered()) return;
+  step.timing.level.store(level - 1, std::memory_order_relaxed);
+  step.component->degrade(level - 1);
+  observer_.budget_recovered(place, tick, level - 1);
+}
+
+void GroupRunner::react(SchedulePlace place, const Tick& tick, BreachReaction reaction, Step& step) noexcept {
+  int level = 0;
+  if (reaction == BreachReaction::kSkip) step.skip_beats = step.watch.rule().beats;
+  if (reaction == BreachReaction::kDegrade) {
+    level = std::min(step.timing.level.load(std::memory_order_relaxed) + 1, step.watch.rule().max_level);
+    step.timing.level.store(level, std::memory_order_relaxed);
+    step.component->degrade(level);
+  }
+  observer_.budget_reaction(place, tick, reaction, level);
 }
 
 void GroupRunner::miss(std::uint64_t beat, std::uint64_t count) noexcept {

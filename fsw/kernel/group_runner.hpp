@@ -21,6 +21,8 @@ struct ComponentTiming {
   DurationStatistics cpu;                        ///< of the steps whose processor time is known
   std::atomic<std::uint64_t> left_processor{0};  ///< steps that were pre-empted or waited
   std::atomic<std::uint64_t> over_budget{0};
+  std::atomic<std::uint64_t> skipped{0};  ///< beats without a step, after too many breaches
+  std::atomic<int> level{0};              ///< to which it is degraded
 };
 
 /// What is known of one group's beats; read by any thread.
@@ -58,6 +60,8 @@ class GroupRunner {
   struct Step {
     Component* component = nullptr;
     TimeNs budget_ns = 0;
+    BudgetWatch watch;
+    int skip_beats = 0;              // still to be left out
     std::vector<Crossing*> publish;  // crossings that lead out of it
     ComponentTiming timing;
   };
@@ -70,7 +74,10 @@ class GroupRunner {
 
   void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
   static void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
+  static bool left_out(Step& step, const Tick& tick) noexcept;
   void judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
+  void judge_budget(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
+  void react(SchedulePlace place, const Tick& tick, BreachReaction reaction, Step& step) noexcept;
   void miss(std::uint64_t beat, std::uint64_t count) noexcept;
 
   RateGroup group_;

@@ -7,14 +7,18 @@
 #include <string_view>
 #include <vector>
 
+#include "fsw/kernel/budget_rule.hpp"
 #include "fsw/kernel/component.hpp"
 
 namespace omma {
 
 struct ScheduledComponent {
   Component& component;
-  /// Longest time one step may take on the wall clock; 0: not judged.
+  /// Longest time one step may take on the wall clock; 0: not judged, and not counted in the proof that the
+  /// schedule holds.
   std::chrono::nanoseconds budget{0};
+  BudgetRule on_breach{};  ///< what happens when the budget is broken again and again
+  int threads = 1;         ///< that share a step (WorkerPool), the group's own included
 };
 
 inline constexpr int kAnyCore = -1;

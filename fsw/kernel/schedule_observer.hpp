@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "fsw/kernel/budget_rule.hpp"
 #include "fsw/kernel/tick.hpp"
 
 namespace omma {
@@ -37,6 +38,12 @@ class ScheduleObserver {
   virtual void beat_finished(std::uint16_t /*group*/, const Tick&) noexcept {}
   /// A step took longer than its budget.
   virtual void over_budget(SchedulePlace, const Tick&, const StepTime&, TimeNs /*budget_ns*/) noexcept {}
+  /// A component broke its budget as often as its rule allows. Degrading and skipping are the scheduler's own
+  /// doing and only told; kSafe is a request, and whoever keeps the modes acts on it here.
+  /// @param level  to which the component is degraded; else 0
+  virtual void budget_reaction(SchedulePlace, const Tick&, BreachReaction, int /*level*/) noexcept {}
+  /// A degraded component has kept its budget and is given one level back.
+  virtual void budget_recovered(SchedulePlace, const Tick&, int /*level*/) noexcept {}
   /// Beats that were due and will never be served: `count` of them, the first at `first`.
   virtual void missed(std::uint16_t /*group*/, const Tick& /*first*/, std::uint64_t /*count*/) noexcept {}
 };

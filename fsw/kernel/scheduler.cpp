@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "fsw/kernel/schedulability.hpp"
 #include "fsw/kernel/wiring.hpp"
 
 namespace omma {
@@ -28,6 +29,7 @@ Scheduler::Scheduler(const RateGroupTable& table, Clock& clock)
 Scheduler::Scheduler(const RateGroupTable& table, Clock& clock, ScheduleObserver& observer)
     : base_period_(table.base_period.count()), clock_(clock) {
   const Wiring wiring = checked_wiring(table);
+  if (!clock.lockstep()) check_schedule(table, processors_here());  // in lockstep time waits
   for (std::size_t i = 0; i < table.groups.size(); ++i) {
     groups_.push_back(
         std::make_unique<GroupRunner>(table, static_cast<std::uint16_t>(i), wiring, clock, observer));

@@ -21,7 +21,8 @@ inline constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::ma
 
 class Scheduler {
  public:
-  /// @throws WiringError with a sentence for every fault of the table or its wiring
+  /// @throws WiringError with a sentence for every fault of the table or its wiring; ScheduleError where time
+  /// does not wait and a group's beats may overrun
   Scheduler(const RateGroupTable& table, Clock& clock);
   Scheduler(const RateGroupTable& table, Clock& clock, ScheduleObserver& observer);
 

@@ -22,6 +22,21 @@ void check_group(const RateGroup& group, const RateGroupTable& table, std::vecto
                      ", which is not less than its divisor " + std::to_string(group.divisor) + ".");
   if (group.priority < 0 || group.priority > 99)
     faults.push_back(who + " has priority " + std::to_string(group.priority) + "; it must be 0 to 99.");
+  for (const ScheduledComponent& scheduled : group.components) {
+    const std::string what = "component " + quoted(scheduled.component.name());
+    if (scheduled.budget.count() < 0) faults.push_back(what + " has a negative budget.");
+    if (scheduled.threads < 1)
+      faults.push_back(what + " has " + std::to_string(scheduled.threads) +
+                       " threads; it must be at least 1.");
+    if (!scheduled.on_breach.valid())
+      faults.push_back(
+          what + " reacts after " + std::to_string(scheduled.on_breach.breaches) + " breaches in " +
+          std::to_string(scheduled.on_breach.window()) +
+          " steps; it must be 1 to 64 breaches in at least as many and at most 64 steps, beats and "
+          "max_level at least 1.");
+    if (scheduled.on_breach.reaction != BreachReaction::kNone && scheduled.budget.count() == 0)
+      faults.push_back(what + " has a reaction to a broken budget but no budget.");
+  }
   if (group.components.empty()) faults.push_back(who + " has no components.");
   const auto same_name = [&](const RateGroup& other) { return other.name == group.name; };
   const auto first = std::find_if(table.groups.begin(), table.groups.end(), same_name);

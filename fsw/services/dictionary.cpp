@@ -30,14 +30,26 @@ void write_topic(JsonText& json, const TopicDescriptor& topic) {
   json.key("deadline_s").number(topic.deadline_s).key("measured").boolean(topic.measured).close_object();
 }
 
+void write_rule(JsonText& json, const BudgetRule& rule) {
+  json.open_object().key("reaction").string(reaction_name(rule.reaction));
+  if (rule.reaction != BreachReaction::kNone)
+    json.key("breaches").number(rule.breaches).key("in_steps").number(rule.window());
+  json.close_object();
+}
+
 void write_group(JsonText& json, const RateGroup& group, std::chrono::nanoseconds base_period) {
   json.open_object().key("name").string(group.name);
   json.key("period_s").number(static_cast<double>(base_period.count()) * group.divisor / 1e9);
   json.key("offset_s").number(static_cast<double>(base_period.count()) * group.offset / 1e9);
-  json.key("priority").number(group.priority).key("components").open_array();
+  json.key("priority").number(group.priority);
+  if (group.core != kAnyCore) json.key("core").number(group.core);
+  json.key("components").open_array();
   for (const ScheduledComponent& scheduled : group.components) {
     json.open_object().key("name").string(scheduled.component.name());
-    json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) / 1e9).close_object();
+    json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) / 1e9);
+    json.key("threads").number(scheduled.threads).key("on_breach");
+    write_rule(json, scheduled.on_breach);
+    json.close_object();
   }
   json.close_array().close_object();
 }

@@ -23,7 +23,23 @@ inline constexpr EventDescriptor kStepOverBudget{
     .text = "step of component {0} took {1}, of which {2} on the processor; its budget is {3}",
     .values = {{{"component"}, {"wall", "us"}, {"cpu", "us"}, {"budget", "us"}}}};
 
-inline constexpr std::array kScheduleEvents{kBeatsMissed, kStepOverBudget};
+inline constexpr EventDescriptor kBudgetReaction{
+    .id = 5,
+    .severity = EventSeverity::kWarning,
+    .name = "budget_reaction",
+    .text =
+        "component {0} keeps breaking its budget: reaction {1} (1 degraded, to level {2}; 2 left out for a "
+        "while; 3 safe mode asked for)",
+    .values = {{{"component"}, {"reaction"}, {"level"}}}};
+
+inline constexpr EventDescriptor kBudgetRecovered{
+    .id = 6,
+    .severity = EventSeverity::kActivity,
+    .name = "budget_recovered",
+    .text = "component {0} has kept its budget and works at level {1} again (0: all it can do)",
+    .values = {{{"component"}, {"level"}}}};
+
+inline constexpr std::array kScheduleEvents{kBeatsMissed, kStepOverBudget, kBudgetReaction, kBudgetRecovered};
 static_assert(are_unique(kScheduleEvents) && are_well_formed(kScheduleEvents));
 
 /// To be given to the scheduler.
@@ -38,6 +54,13 @@ class ScheduleEvents final : public ScheduleObserver {
                                        ? std::numeric_limits<double>::quiet_NaN()
                                        : microseconds(time.cpu_ns),
                                    microseconds(budget_ns));
+  }
+  void budget_reaction(SchedulePlace place, const Tick& tick, BreachReaction reaction,
+                       int level) noexcept override {
+    events_.raise<kBudgetReaction>(tick, place.component, static_cast<int>(reaction), level);
+  }
+  void budget_recovered(SchedulePlace place, const Tick& tick, int level) noexcept override {
+    events_.raise<kBudgetRecovered>(tick, place.component, level);
   }
   void missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept override {
     events_.raise<kBeatsMissed>(first, group, count, first.number);

@@ -54,6 +54,36 @@ ImagingParameters small_panorama() {
   return parameters;
 }
 
+TEST(Imaging, DegradedMakesTheSamePictureOfSmallerChunks) {
+  std::vector<std::vector<std::uint8_t>> pictures;
+  for (const int level : {0, 1, 2, 30}) {
+    Bench bench(small_panorama());
+    bench.take(1, Eigen::Quaterniond::Identity());
+    bench.imaging.degrade(level);
+    const int most = std::max(1, 16 >> level);
+    std::vector<std::uint8_t> picture(512 * 256);
+    for (int rows = 0; rows < 256; rows += bench.imaging.chunk->rows) {
+      bench.imaging.step({});
+      ASSERT_EQ(bench.imaging.chunk->rows, most);
+      std::memcpy(picture.data() + rows * 512, bench.imaging.chunk->pixels.data(),
+                  static_cast<std::size_t>(most) * 512);
+    }
+    pictures.push_back(picture);
+  }
+  for (const std::vector<std::uint8_t>& picture : pictures) EXPECT_EQ(picture, pictures[0]);
+}
+
+TEST(Imaging, LeftOutWithdrawsItsChunk) {
+  Bench bench(small_panorama());
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  ASSERT_TRUE(bench.imaging.chunk->valid);
+  bench.imaging.skipped({});
+  EXPECT_FALSE(bench.imaging.chunk->valid);
+  bench.imaging.step({});
+  EXPECT_EQ(bench.imaging.chunk->first_row, 16);
+}
+
 TEST(Imaging, ChunksTakenWhileTheRigTurnsMakeOnePictureOfTheSky) {
   Bench bench(small_panorama());
   std::vector<std::uint8_t> picture(512 * 256);

@@ -132,6 +132,7 @@ TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
     return said.str();
   };
   EXPECT_THAT(told(" --graph"), HasSubstr("digraph wiring"));
+  EXPECT_THAT(told(" --schedule --workers 1"), HasSubstr("vision                  100.000 ms"));
   const auto dictionary = nlohmann::json::parse(told(" --dictionary"));
   EXPECT_EQ(dictionary.at("program"), "omma-fsw");
   EXPECT_EQ(dictionary.at("topics").size(), telemetry::kTopicCount);
@@ -169,6 +170,29 @@ TEST_F(MissionFile, ThatIsWrongEndsTheFlightProgramWithTwo) {
   std::ostringstream said;
   said << std::ifstream(folder_ / "said").rdbuf();
   EXPECT_THAT(said.str(), HasSubstr("camera[0].bits: expected "));
+}
+
+TEST_F(MissionFile, WithAFrameRateTheScheduleCannotHoldIsRefusedInRealTime) {
+  replace("demo.toml", "frame_rate_hz = 10", "frame_rate_hz = 50");
+  const std::filesystem::path frames = folder_ / "frames";
+  const Mission mission = read_mission(file());
+  for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
+    const RigCamera& camera = mission.rig.cameras[c];
+    const std::string name(camera.name.view());
+    Image image;
+    image.resize(camera.lens.width(), camera.lens.height(),
+                 mission.cameras[c].bits > 8 ? PixelFormat::kGrey16 : PixelFormat::kGrey8);
+    std::filesystem::create_directories(frames / name);
+    write_png(frames / name / (name + "_000000.png"), image.view());
+  }
+  const std::string command = OMMA_RUN "omma-fsw " + file().string() + " --no-dds --real-time --frames " +
+                              frames.string() + " 2> " + (folder_ / "said").string();
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  std::ostringstream said;
+  said << std::ifstream(folder_ / "said").rdbuf();
+  EXPECT_THAT(said.str(),
+              HasSubstr("the schedule does not hold: rate group 'vision' has budgets of 42.100 ms in "
+                        "a period of 20.000 ms"));
 }
 
 TEST_F(MissionFile, WithFramesOfAnotherSizeEndsTheFlightProgramWithTwo) {

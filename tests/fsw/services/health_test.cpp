@@ -18,7 +18,8 @@ using testing::FakeClock;
 using ::testing::HasSubstr;
 using testing::Scripted;
 
-inline constexpr std::array kAllEvents{kBeatsMissed, kStepOverBudget, kGroupStopped, kMemoryTouched};
+inline constexpr std::array kAllEvents{kBeatsMissed,     kStepOverBudget, kBudgetReaction,
+                                       kBudgetRecovered, kGroupStopped,   kMemoryTouched};
 static_assert(are_unique(kAllEvents));
 
 TEST(Health, IsWellWhenEveryBeatIsServed) {
@@ -72,6 +73,20 @@ TEST(Health, IsDegradedByASlipAndWellAgainAfter) {
   ASSERT_TRUE(events.take(record));
   EXPECT_EQ(event_text(kBeatsMissed, record), "rate group 0 missed 2 beats, the first due at tick 4");
   EXPECT_FALSE(events.take(record));
+}
+
+TEST(ScheduleEvents, TellReactionAndRecovery) {
+  Events events;
+  ScheduleEvents observer(events);
+  observer.budget_reaction({.component = 4}, {}, BreachReaction::kDegrade, 2);
+  observer.budget_recovered({.component = 4}, {}, 1);
+  EventRecord record;
+  ASSERT_TRUE(events.take(record));
+  EXPECT_EQ(event_text(kBudgetReaction, record).substr(0, 76),
+            "component 4 keeps breaking its budget: reaction 1 (1 degraded, to level 2; 2");
+  ASSERT_TRUE(events.take(record));
+  EXPECT_EQ(event_text(kBudgetRecovered, record),
+            "component 4 has kept its budget and works at level 1 again (0: all it can do)");
 }
 
 TEST(Health, SeesAGroupWhoseStepDoesNotReturn) {

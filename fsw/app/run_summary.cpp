@@ -17,6 +17,16 @@ std::string line(std::string_view name, std::uint64_t steps, double mean_ms, dou
   return text.data();
 }
 
+/// Empty in lockstep, where no thread is real-time.
+std::string page_fault_line(const Scheduler& scheduler) {
+  std::uint64_t count = 0;
+  for (std::size_t g = 0; g < scheduler.group_count(); ++g) {
+    if (!scheduler.group(g).page_faults().counting()) return "";
+    count += scheduler.group(g).page_faults().count();
+  }
+  return "page faults on real-time threads: " + std::to_string(count) + "\n";
+}
+
 }  // namespace
 
 std::string run_summary(const Scheduler& scheduler) {
@@ -40,6 +50,7 @@ std::string run_summary(const Scheduler& scheduler) {
                   static_cast<unsigned long long>(group.timing().missed.load()));
     text += sum.data();
   }
+  text += page_fault_line(scheduler);
   if (memory_guard::installed()) {
     const memory_guard::Violations found = memory_guard::violations();
     std::array<char, 128> guard{};

@@ -53,6 +53,11 @@ void GroupRunner::start_at(TimeNs start) noexcept {
 }
 
 void GroupRunner::serve(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept {
+  serve_beats(until_tick, stop);
+  if (page_faults_.counting()) page_faults_.end();
+}
+
+void GroupRunner::serve_beats(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept {
   const std::uint64_t end = grid_.beats_before(until_tick);
   while (beat_ < end && !stop.load(std::memory_order_relaxed)) {
     const TimeNs due = grid_.due(beat_);

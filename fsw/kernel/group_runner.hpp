@@ -8,6 +8,7 @@
 
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/grid.hpp"
+#include "fsw/kernel/page_faults.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/schedule_observer.hpp"
 #include "fsw/kernel/timing.hpp"
@@ -46,6 +47,12 @@ class GroupRunner {
   /// reported, never made up.
   void serve(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept;
 
+  /// On the group's thread, before `serve`, which makes the count exact when it returns.
+  void count_page_faults() noexcept { page_faults_.begin(); }
+  /// On any other thread.
+  void sample_page_faults() noexcept { page_faults_.sample(); }
+  const PageFaults& page_faults() const { return page_faults_; }
+
   /// Lockstep: serves base tick `tick_number` if it is one of the group's.
   void serve_tick(std::uint64_t tick_number) noexcept;
 
@@ -72,6 +79,7 @@ class GroupRunner {
     TimeNs cpu_ns = 0;
   };
 
+  void serve_beats(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept;
   void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
   static void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
   static bool left_out(Step& step, const Tick& tick) noexcept;
@@ -91,6 +99,7 @@ class GroupRunner {
   std::vector<Crossing*> acquire_;  // crossings that lead in
   std::vector<std::unique_ptr<Step>> steps_;
   GroupTiming timing_;
+  PageFaults page_faults_;
   bool disturbed_ = true;  // the last beat was broken: this one may ask the system for its processor time
 };
 

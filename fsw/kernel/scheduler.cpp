@@ -2,8 +2,10 @@
 #include "fsw/kernel/scheduler.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <latch>
 #include <mutex>
+#include <semaphore>
 #include <string>
 #include <thread>
 
@@ -15,6 +17,8 @@ namespace {
 
 // From the moment all threads are ready to the first beat: enough for each to reach its sleep.
 constexpr TimeNs kStartMargin = 2'000'000;
+
+constexpr std::chrono::milliseconds kFaultPeriod{500};
 
 ScheduleObserver& silent_observer() {
   static ScheduleObserver observer;
@@ -60,6 +64,7 @@ void Scheduler::run_lockstep(std::uint64_t until_tick) {
 void Scheduler::run_threads(std::uint64_t until_tick) {
   std::latch ready(static_cast<std::ptrdiff_t>(groups_.size()));
   std::latch go(1);
+  std::counting_semaphore<> ended(0);
   std::mutex refusals_mutex;  // start-up only
   std::vector<std::thread> threads;
   for (const auto& group : groups_) {
@@ -73,13 +78,22 @@ void Scheduler::run_threads(std::uint64_t until_tick) {
       }
       ready.count_down();
       go.wait();
+      runner->count_page_faults();
       runner->serve(until_tick, stop_);
+      ended.release();
     });
   }
   ready.wait();
   const TimeNs start = clock_.now() + kStartMargin;
   for (const auto& group : groups_) group->start_at(start);
   go.count_down();
+  // This thread is an ordinary one: it looks after what the others could not without a system call.
+  for (std::size_t left = groups_.size(); left > 0;) {
+    if (ended.try_acquire_for(kFaultPeriod))
+      --left;
+    else
+      for (const auto& group : groups_) group->sample_page_faults();
+  }
   for (std::thread& thread : threads) thread.join();
 }
 

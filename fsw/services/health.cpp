@@ -55,10 +55,12 @@ void Health::judge(const Tick& tick) noexcept {
   now.time_ns = tick.time_ns;
   now.valid = true;
   bool stopped = false;
+  std::uint64_t page_faults = 0;
   for (std::size_t g = 0; g < scheduler_->group_count(); ++g) {
     const GroupRunner& runner = scheduler_->group(g);
     const GroupHealth group = group_health(runner, tick.number);
     now.groups.push_back(group);
+    page_faults += runner.page_faults().count();
     now.ticks_missed += group.missed;
     for (std::size_t c = 0; c < runner.group().components.size(); ++c)
       now.over_budget += runner.component_timing(c).over_budget.load(std::memory_order_relaxed);
@@ -69,6 +71,8 @@ void Health::judge(const Tick& tick) noexcept {
   now.events_dropped = events_.dropped();
   if (now.memory_violations > before.memory_violations)
     events_.raise<kMemoryTouched>(tick, now.memory_violations - before.memory_violations);
+  if (page_faults > page_faults_) events_.raise<kPageFaulted>(tick, page_faults - page_faults_);
+  page_faults_ = page_faults;
   const bool worse = now.ticks_missed > before.ticks_missed || now.over_budget > before.over_budget ||
                      now.memory_violations > before.memory_violations ||
                      now.events_dropped > before.events_dropped;

@@ -77,7 +77,15 @@ inline constexpr EventDescriptor kMemoryTouched{
     .text = "memory was allocated, released or mapped inside a step, {0} times since the last report",
     .values = {{{"count"}}}};
 
-inline constexpr std::array kHealthEvents{kGroupStopped, kMemoryTouched};
+inline constexpr EventDescriptor kPageFaulted{.id = 7,
+                                              .severity = EventSeverity::kWarning,
+                                              .name = "page_faulted",
+                                              .text =
+                                                  "real-time threads waited for memory that was not there "
+                                                  "(page faults), {0} times since the last report",
+                                              .values = {{{"count"}}}};
+
+inline constexpr std::array kHealthEvents{kGroupStopped, kMemoryTouched, kPageFaulted};
 static_assert(are_unique(kHealthEvents) && are_well_formed(kHealthEvents));
 
 class Health final : public Component {
@@ -100,6 +108,7 @@ class Health final : public Component {
 
   Events& events_;
   const Scheduler* scheduler_ = nullptr;
+  std::uint64_t page_faults_ = 0;  // of all groups, at the last report
 };
 
 }  // namespace omma

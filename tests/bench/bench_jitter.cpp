@@ -177,6 +177,7 @@ int bench_jitter(int argc, char** argv) {
   for (const int rate : {1000, 200})
     for (const int busy : {0, 2}) compare(rate, seconds, blocks, busy, priority);
   stall(priority);
+  print_memory_touched();
   return 0;
 }
 

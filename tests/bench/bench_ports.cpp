@@ -7,8 +7,10 @@
 #include <mutex>
 #include <thread>
 
+#include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/kernel/real_time_scope.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 
@@ -31,36 +33,76 @@ double best_ns(int rounds, Round&& round) {
   std::vector<double> times;
   for (int repeat = 0; repeat < 5; ++repeat)
     times.push_back(microseconds([&] {
+                      const RealTimeScope real_time;
                       for (int i = 0; i < rounds; ++i) round(static_cast<std::uint64_t>(i));
                     }) *
                     1e3 / rounds);
   return quantile(times, 0);
 }
 
-/// Half of a round trip between two threads that both poll, median [ns].
+/// Half of a round trip between two threads that both poll [ns]: median over batches of a hundred trips, on
+/// the wall clock.
+/// @param trip   sends number i and waits for its answer
+/// @param answer the other thread's part
+template <class Trip, class Answer>
+double half_trip_ns(int rounds, Trip&& trip, Answer&& answer) {
+  constexpr std::uint64_t kBatch = 100;
+  const std::uint64_t batches = static_cast<std::uint64_t>(rounds) / 20 / kBatch + 1;
+  std::thread other([&] {
+    for (std::uint64_t i = 1; i <= batches * kBatch; ++i) answer(i);
+  });
+  std::vector<double> means;
+  means.reserve(batches);
+  MonotonicClock clock;
+  for (std::uint64_t batch = 0; batch < batches; ++batch) {
+    const TimeNs start = clock.now();
+    for (std::uint64_t i = 1; i <= kBatch; ++i) trip(batch * kBatch + i);
+    means.push_back(static_cast<double>(clock.now() - start) / (2.0 * kBatch));
+  }
+  other.join();
+  return quantile(means, 0.5);
+}
+
+/// The least the machine allows: a number in one cache line there, one back.
+double one_line_ns(int rounds) {
+  alignas(64) std::atomic<std::uint64_t> ping{0};
+  alignas(64) std::atomic<std::uint64_t> pong{0};
+  const auto wait = [](const std::atomic<std::uint64_t>& line, std::uint64_t number) {
+    while (line.load(std::memory_order_acquire) != number) {
+    }
+  };
+  return half_trip_ns(
+      rounds,
+      [&](std::uint64_t i) {
+        ping.store(i, std::memory_order_release);
+        wait(pong, i);
+      },
+      [&](std::uint64_t i) {
+        wait(ping, i);
+        pong.store(i, std::memory_order_release);
+      });
+}
+
 double one_way_ns(int rounds) {
   Out<Message> ping;
   Out<Message> pong;
   Latest<Message> there(ping);
   Latest<Message> back(pong);
-  const int trips = rounds / 20;
-  std::thread other([&] {
-    for (std::uint64_t i = 1; i <= static_cast<std::uint64_t>(trips); ++i) {
-      while (there.current().tick != i) there.acquire();
-      pong->tick = i;
-      back.publish();
-    }
-  });
-  std::vector<double> trip_us;
-  trip_us.reserve(static_cast<std::size_t>(trips));
-  for (std::uint64_t i = 1; i <= static_cast<std::uint64_t>(trips); ++i)
-    trip_us.push_back(microseconds([&] {
-      ping->tick = i;
-      there.publish();
-      while (back.current().tick != i) back.acquire();
-    }));
-  other.join();
-  return quantile(trip_us, 0.5) * 1e3 / 2;
+  const auto wait = [](Latest<Message>& latest, std::uint64_t number) {
+    while (latest.current().tick != number) latest.acquire();
+  };
+  return half_trip_ns(
+      rounds,
+      [&](std::uint64_t i) {
+        ping->tick = i;
+        there.publish();
+        wait(back, i);
+      },
+      [&](std::uint64_t i) {
+        wait(there, i);
+        pong->tick = i;
+        back.publish();
+      });
 }
 
 }  // namespace
@@ -120,6 +162,8 @@ int bench_ports(int argc, char** argv) {
   std::printf("  Queue: push and pop                %7.1f\n", queued);
   std::printf("  mutex and two copies, uncontended  %7.1f\n", locked);
   std::printf("  Latest, to another core, one way   %7.1f\n", one_way_ns(rounds));
+  std::printf("  one cache line, the same way       %7.1f\n", one_line_ns(rounds));
+  print_memory_touched();
   return 0;
 }
 

@@ -72,6 +72,7 @@ int bench_steps(int argc, char** argv) {
   std::printf("  reading the thread's processor clock   %8.1f\n", cpu);
   std::printf("  beat of a group with one component     %8.1f\n", one);
   std::printf("  each further component                 %8.1f\n", (sixteen - one) / 15);
+  print_memory_touched();
   return 0;
 }
 

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <vector>
 
+#include "fsw/kernel/memory_guard.hpp"
+
 namespace omma {
 
 /// This thread's processor time [µs]: what others do on a busy machine is not measured (their use of the
@@ -37,6 +39,16 @@ double cpu_microseconds(Call&& call) {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
   return 1e6 * static_cast<double>(end.tv_sec - start.tv_sec) +
          1e-3 * static_cast<double>(end.tv_nsec - start.tv_nsec);
+}
+
+/// What the real-time stretches (RealTimeScope) of this run did to memory, by the memory guard.
+inline void print_memory_touched() {
+  const memory_guard::Violations found = memory_guard::violations();
+  if (memory_guard::installed())
+    std::printf("Allocations in steps: %llu, releases: %llu, mappings: %llu\n",
+                static_cast<unsigned long long>(found.allocations),
+                static_cast<unsigned long long>(found.releases),
+                static_cast<unsigned long long>(found.mappings));
 }
 
 /// The value below which the fraction `q` of the samples lies.

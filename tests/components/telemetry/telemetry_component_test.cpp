@@ -1,10 +1,12 @@
 // From the components' messages through the telemetry component and its thread into a recording.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <latch>
 #include <memory>
 #include <thread>
 
@@ -16,6 +18,7 @@
 #include "fsw/kernel/real_time_scope.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "ground/recording.hpp"
+#include "tests/fsw/kernel/test_components.hpp"
 
 namespace omma {
 namespace {
@@ -148,7 +151,25 @@ class SlowSink final : public telemetry::Sink {
   int count_ = 0;
 };
 
-class TelemetryTest : public testing::Test {
+/// Does not return from writing until it is let go.
+class BlockedSink final : public telemetry::Sink {
+ public:
+  explicit BlockedSink(std::latch& gate) : gate_(gate) {}
+  void write(telemetry::TopicId, const void*, std::span<const std::byte>) override {
+    blocked.store(true);
+    gate_.wait();
+    ++written;
+  }
+  std::uint64_t lost() const override { return 0; }
+  std::string failure() const override { return {}; }
+  std::atomic<bool> blocked{false};
+  int written = 0;
+
+ private:
+  std::latch& gate_;
+};
+
+class TelemetryTest : public ::testing::Test {
  protected:
   ~TelemetryTest() override {
     for (const std::string& path : {path_, second_}) {
@@ -157,9 +178,9 @@ class TelemetryTest : public testing::Test {
     }
   }
   static std::string file(const std::string& suffix) {
-    return (std::filesystem::path(testing::TempDir()) /
-            ("omma_telemetry_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) +
-             suffix))
+    return (std::filesystem::path(::testing::TempDir()) /
+            ("omma_telemetry_" +
+             std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + suffix))
         .string();
   }
   const std::string path_ = file(".mcap");
@@ -275,6 +296,36 @@ TEST_F(TelemetryTest, FrameSetsBeyondTheQueueAreCountedAndLeaveAGap) {
   int events = 0;
   recording.for_each<omma_Event>([&](const omma_Event&) { ++events; });
   EXPECT_EQ(events, ReportQueue::kReports + 6) << "events wait in their own ring";
+}
+
+// Ten seconds of flight, on a clock that stands still while a step waits: a step that waited for the sink
+// would never return.
+TEST_F(TelemetryTest, BlockedSinkMakesNoRealTimeGroupLate) {
+  constexpr std::uint64_t kBeats = 100;
+  const auto flight = std::make_unique<Flight>();
+  std::latch gate(1);
+  auto owned = std::make_unique<BlockedSink>(gate);
+  const BlockedSink& sink = *owned;
+  flight->output.add(std::move(owned));
+  testing::FakeClock clock;
+  Scheduler scheduler(
+      {.base_period = 100ms,
+       .groups = {{.name = "vision", .components = {{flight->chain, 1ms}, {flight->telemetry, 1ms}}}}},
+      clock);
+  flight->step(0);
+  flight->output.start();
+  flight->output.wait_for_room();
+  while (!sink.blocked.load()) std::this_thread::yield();
+  scheduler.run(kBeats);
+  EXPECT_EQ(scheduler.group(0).timing().latency.count(), kBeats);
+  EXPECT_EQ(scheduler.group(0).timing().missed.load(), 0U);
+  EXPECT_EQ(scheduler.group(0).timing().latency.snapshot().max_ns, 0);
+  EXPECT_EQ(scheduler.group(0).component_timing(1).over_budget.load(), 0U);
+  EXPECT_EQ(sink.written, 0);
+  EXPECT_GE(flight->telemetry.reports().dropped(), kBeats - ReportQueue::kReports);
+  gate.count_down();
+  flight->output.stop();
+  EXPECT_GT(sink.written, 0);
 }
 
 TEST_F(TelemetryTest, EventsAfterTheLastFrameSetAreSentAtTheEnd) {

@@ -1,6 +1,8 @@
 // The monotonic clock by its system calls.
 #include "fsw/kernel/clock.hpp"
 
+#include "fsw/kernel/thread_cpu_time.hpp"
+
 #include <cerrno>
 #include <ctime>
 
@@ -16,6 +18,10 @@ TimeNs read_monotonic() noexcept {
 }
 
 }  // namespace
+
+TimeNs Clock::processor_time() noexcept {
+  return thread_cpu_time();
+}
 
 TimeNs Clock::stopwatch() noexcept {
   return read_monotonic();

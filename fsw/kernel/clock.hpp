@@ -21,6 +21,8 @@ class Clock {
   virtual bool lockstep() const noexcept { return false; }
   /// For measuring durations [ns]: real time even where `now` is simulated.
   virtual TimeNs stopwatch() noexcept;
+  /// Processor time of the calling thread [ns].
+  virtual TimeNs processor_time() noexcept;
 };
 
 /// CLOCK_MONOTONIC with absolute sleeps: the length of a step never moves the next deadline.

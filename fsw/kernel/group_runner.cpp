@@ -6,7 +6,6 @@
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/processor_stay.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
-#include "fsw/kernel/thread_cpu_time.hpp"
 
 namespace omma {
 namespace {
@@ -36,6 +35,7 @@ GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const
     steps_.push_back(std::make_unique<Step>());
     steps_.back()->component = &scheduled.component;
     steps_.back()->budget_ns = scheduled.budget.count();
+    steps_.back()->shared = scheduled.threads > 1;
     steps_.back()->watch = BudgetWatch(scheduled.on_breach);
   }
   for (const Connection& connection : wiring.connections) {
@@ -86,7 +86,7 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
   observer_.beat_started(index_, tick, latency_ns);
   for (Crossing* crossing : acquire_) crossing->acquire();
   ProcessorStay stay;
-  CpuMark mark{disturbed_, disturbed_ ? thread_cpu_time() : 0};
+  CpuMark mark{disturbed_, disturbed_ ? clock_.processor_time() : 0};
   disturbed_ = false;
   TimeNs before = clock_.stopwatch();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -125,7 +125,7 @@ void GroupRunner::measure_cpu(StepTime& time, CpuMark& mark) noexcept {
     mark.cpu_ns += time.wall_ns;
     return;
   }
-  const TimeNs now = thread_cpu_time();
+  const TimeNs now = clock_.processor_time();
   if (mark.known) time.cpu_ns = now - mark.cpu_ns;
   mark = {true, now};
 }
@@ -146,7 +146,9 @@ void GroupRunner::judge_budget(SchedulePlace place, const Tick& tick, const Step
     count_one(step.timing.over_budget);
     observer_.over_budget(place, tick, time, step.budget_ns);
   }
-  const BreachReaction reaction = step.watch.after_step(breached);
+  // Others took the processor: not the component's doing. (A shared step also works on other threads.)
+  const bool excused = !step.shared && time.cpu_ns != StepTime::kUnknown && time.cpu_ns <= step.budget_ns;
+  const BreachReaction reaction = step.watch.after_step(breached && !excused);
   if (reaction != BreachReaction::kNone) react(place, tick, reaction, step);
   const int level = step.timing.level.load(std::memory_order_relaxed);
   if (level == 0 || !step.watch.recovered()) return;

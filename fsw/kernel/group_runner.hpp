@@ -68,6 +68,7 @@ class GroupRunner {
     Component* component = nullptr;
     TimeNs budget_ns = 0;
     BudgetWatch watch;
+    bool shared = false;             // among several threads
     int skip_beats = 0;              // still to be left out
     std::vector<Crossing*> publish;  // crossings that lead out of it
     ComponentTiming timing;
@@ -81,7 +82,7 @@ class GroupRunner {
 
   void serve_beats(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept;
   void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
-  static void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
+  void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
   static bool left_out(Step& step, const Tick& tick) noexcept;
   void judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
   void judge_budget(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;

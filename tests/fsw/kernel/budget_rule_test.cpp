@@ -7,6 +7,7 @@
 #include <deque>
 #include <numeric>
 #include <random>
+#include <thread>
 
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/kernel/wiring.hpp"
@@ -139,6 +140,26 @@ TEST(BudgetRule, AsksForTheSafeModeOnceForEachRulesWorthOfBreaches) {
   scheduler.run(20);
   EXPECT_THAT(observer.seen, ElementsAre(std::tuple{3U, BreachReaction::kSafe, 0},
                                          std::tuple{6U, BreachReaction::kSafe, 0}));
+}
+
+// Each step sleeps, so that it loses the processor in truth; how long is up to the test's clock.
+TEST(BudgetRule, DoesNotBlameAComponentForThePreemptionByOthers) {
+  for (const bool slow : {false, true}) {
+    FakeClock clock;
+    Scripted component("component", [&](const Tick&) {
+      std::this_thread::sleep_for(10us);
+      if (slow)
+        clock.spend(300'000);
+      else
+        clock.pass(300'000);
+    });
+    Reactions observer;
+    Scheduler scheduler(table_of(component, {.reaction = BreachReaction::kSafe, .breaches = 3}), clock,
+                        observer);
+    scheduler.run(30);
+    EXPECT_EQ(scheduler.group(0).component_timing(0).over_budget.load(), 30U);
+    EXPECT_EQ(observer.seen.size(), slow ? 10U : 0U);
+  }
 }
 
 TEST(BudgetRule, HasNoConsequencesInLockstep) {

@@ -22,9 +22,15 @@ class FakeClock final : public Clock {
   void sleep_until(TimeNs instant) noexcept override {
     if (elapsed(now_, instant) > 0) now_ = instant;
     const TimeNs late = wake_late ? wake_late() : 0;
-    spend(late);
+    pass(late);
   }
+  TimeNs processor_time() noexcept override { return processor_time_; }
   void spend(TimeNs duration) noexcept {
+    processor_time_ += duration;
+    pass(duration);
+  }
+  /// Time in which others have the processor.
+  void pass(TimeNs duration) noexcept {
     now_ = static_cast<TimeNs>(static_cast<std::uint64_t>(now_) + static_cast<std::uint64_t>(duration));
   }
 
@@ -32,6 +38,7 @@ class FakeClock final : public Clock {
 
  private:
   TimeNs now_;
+  TimeNs processor_time_ = 0;
 };
 
 /// Does in each step what the test says.

@@ -5,6 +5,7 @@ namespace omma {
 
 int bench_acquire(int argc, char** argv);
 int bench_attitude(int argc, char** argv);
+int bench_blocked(int argc, char** argv);
 int bench_extract(int argc, char** argv);
 int bench_extract_frames(const char* folder, int argc, char** argv);  // omma-bench extract --frames
 int bench_filter(int argc, char** argv);

@@ -17,6 +17,7 @@ constexpr Bench kBenches[] = {
     {"acquire", omma::bench_acquire,
      "cold start, dots to attitude and pose: time, solved, wrong, error over bound, NEES"},
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
+    {"blocked", omma::bench_blocked, "lateness of rate groups while a telemetry sink blocks for a second"},
     {"extract", omma::bench_extract,
      "dots of synthetic images: time over memcpy, error over bound, NEES, recall, false dots"},
     {"filter", omma::bench_filter,

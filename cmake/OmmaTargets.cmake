@@ -55,8 +55,7 @@ function(omma_program name)
 endfunction()
 
 # omma_test(NAME SOURCES ... [LIBS ...] [TIMEOUT s]): a GoogleTest program; each of its tests is a ctest test.
-# OMMA_SHARED_DATA, OMMA_SOURCE_DIR, OMMA_BINARY_DIR and OMMA_RUN (what a shell puts before the name of one of our
-# programs to run it for a minute at most) reach the tests as macros. A test's label is its folder: fsw, ground, ...
+# Where things are comes from tests/paths.hpp. A test's label is its folder: fsw, ground, ...
 function(omma_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LIBS" ${ARGN})
   if(NOT ARG_TIMEOUT)
@@ -64,18 +63,12 @@ function(omma_test name)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE omma_options ${ARG_LIBS} GTest::gtest GTest::gmock GTest::gtest_main)
-  set(minute 60)
   if(CMAKE_CROSSCOMPILING_EMULATOR)  # about twenty times slower
     math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")
-    set(minute 600)
   endif()
   list(JOIN CMAKE_CROSSCOMPILING_EMULATOR " " emulator)
   file(RELATIVE_PATH label ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   string(REGEX REPLACE "/.*" "" label "${label}")
-  target_compile_definitions(${name} PRIVATE
-    OMMA_RUN="timeout ${minute} ${emulator} ${PROJECT_BINARY_DIR}/bin/"
-    OMMA_SHARED_DATA="${OMMA_SHARED_DATA}" OMMA_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    OMMA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES
     TIMEOUT ${ARG_TIMEOUT} LABELS ${label} ENVIRONMENT "OMMA_LAUNCHER=${emulator}")

@@ -18,6 +18,7 @@
 #include "tests/bench/cold_frame.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/rig_problem.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -11,6 +11,7 @@
 #include "tests/bench/measure.hpp"
 #include "tests/bench/photographs.hpp"
 #include "tests/bench/spot_scene.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

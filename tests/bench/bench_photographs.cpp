@@ -9,6 +9,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/photographs.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

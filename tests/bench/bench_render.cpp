@@ -9,6 +9,7 @@
 #include "sim/scenario_file.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

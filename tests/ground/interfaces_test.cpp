@@ -10,6 +10,7 @@
 
 #include "components/telemetry/topics.hpp"
 #include "ground/idl/idl_schema.hpp"
+#include "tests/paths.hpp"
 
 namespace omma::ground {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "tests/ground/run_program.hpp"
 #include "tests/ground/sample_recording.hpp"
+#include "tests/paths.hpp"
 
 namespace omma::ground {
 namespace {

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/paths.hpp"
+
 namespace omma::test {
 
 struct ProgramRun {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

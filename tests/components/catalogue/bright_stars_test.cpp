@@ -11,6 +11,7 @@
 
 #include "components/catalogue/star.hpp"
 #include "components/catalogue/star_names.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

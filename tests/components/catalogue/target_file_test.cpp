@@ -6,6 +6,7 @@
 
 #include "components/catalogue/target_file.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -17,6 +17,7 @@
 #include "components/catalogue/star.hpp"
 #include "components/geometry/lens_file.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -8,6 +8,7 @@
 #include "components/geometry/rig_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "tests/components/geometry/temporary_file.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -7,6 +7,7 @@
 #include "components/catalogue/target_file.hpp"
 #include "components/tracker/tracker.hpp"
 #include "tests/bench/cold_frame.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -22,6 +22,7 @@
 #include "ground/recording.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

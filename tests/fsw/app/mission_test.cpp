@@ -14,6 +14,7 @@
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/image_file.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "docs/examples/rate_limit.hpp"
+#include "tests/paths.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "ground/draw/canvas.hpp"
 #include "tests/ground/run_omma.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -7,6 +7,7 @@
 #include "components/catalogue/target_file.hpp"
 #include "ground/draw/canvas.hpp"
 #include "tests/ground/run_omma.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

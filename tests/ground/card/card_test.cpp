@@ -7,6 +7,7 @@
 #include "components/geometry/pose.hpp"
 #include "ground/card/card_check.hpp"
 #include "ground/card/card_reading.hpp"
+#include "tests/paths.hpp"
 
 namespace omma::ground {
 namespace {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/ground/run_omma.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

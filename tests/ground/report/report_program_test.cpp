@@ -11,6 +11,7 @@
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
 #include "tests/ground/run_program.hpp"
+#include "tests/paths.hpp"
 
 namespace omma::ground {
 namespace {

@@ -10,6 +10,7 @@
 #include "components/geometry/pose.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/ground/run_omma.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

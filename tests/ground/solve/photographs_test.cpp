@@ -11,6 +11,7 @@
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/photographs.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -9,6 +9,7 @@
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/photographs.hpp"
 #include "tests/ground/run_omma.hpp"
+#include "tests/paths.hpp"
 
 namespace omma {
 namespace {

@@ -56,7 +56,9 @@ TEST(PageFaults, AreCountedExactlyByTheThreadAndFromOutside) {
     faults.end();
   }).join();
   EXPECT_GE(faults.count(), 100U);
-  if (!emulated()) EXPECT_LT(faults.count(), 150U);  // starting a thread inside takes a few
+  if (!emulated()) {
+    EXPECT_LT(faults.count(), 150U);  // starting a thread inside takes a few
+  }
   const std::uint64_t all = faults.count();
   faults.sample();  // the thread is gone
   EXPECT_EQ(faults.count(), all);

@@ -37,9 +37,13 @@ build_preset() {
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 
-# cross_build arm64|armhf [TARGET]: the sysroot where there is none, then the cross-build
+# cross_build arm64|armhf all|flight [TARGET]: the sysroot where there is none, then the cross-build; `flight` without
+# the ground tools
 cross_build() {
+  local machine=$1 ground=ON
+  if [ "$2" = flight ]; then ground=OFF; fi
   install_packages packages.txt packages-cross.txt
-  scripts/cross_sysroot.sh "$1" "build/sysroot-$1"
-  build_preset "$@"
+  scripts/cross_sysroot.sh "$machine" "build/sysroot-$machine"
+  cmake --preset "$machine" -DOMMA_GROUND=$ground >/dev/null
+  build_preset "$machine" "${@:3}"
 }

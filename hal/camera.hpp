@@ -18,12 +18,34 @@ enum class FrameStatus : std::uint8_t {
   kSaturated,  ///< the frame of this trigger, too bright to use
 };
 
+/// What can be set on a camera while it runs.
+struct CameraSettings {
+  TimeNs exposure_ns = 0;  ///< time of exposure; 0 = not known
+  float gain = 1;          ///< amplification of the signal, 1 = none
+  float black_level = 0;   ///< grey level of a pixel without light
+
+  friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
+};
+
+/// What a camera accepts, bounds included; a quantity whose bounds are equal cannot be set.
+struct CameraSettingsRange {
+  CameraSettings least, most;
+};
+
+enum class SettingsResult : std::uint8_t {
+  kAccepted,    ///< in effect within a few frames; the steps of the hardware may round it
+  kNoControl,   ///< this camera has no such control (a recording)
+  kOutOfRange,  ///< at least one value is outside the range: nothing was changed
+  kFailed,      ///< the device refused or is gone: the settings are as they were
+};
+
 /// One image of one camera. The pixels stay valid until the next `grab` of the same camera.
 struct Frame {
   ImageView image;
   std::uint64_t number = 0;         ///< frame id: the trigger it belongs to
   TimeNs exposure_midpoint_ns = 0;  ///< on-board time
   FrameStatus status = FrameStatus::kMissing;
+  CameraSettings settings{};  ///< those it was taken with, as far as the driver knows
 };
 
 class CameraDriver {
@@ -34,6 +56,14 @@ class CameraDriver {
   virtual bool at_end() const noexcept { return false; }
   /// Fetches the frame of trigger `number`. Never allocates; waits no longer than its own time-out.
   virtual Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept = 0;
+
+  /// What can be set; all bounds equal where nothing can.
+  virtual CameraSettingsRange settings_range() const noexcept { return {}; }
+  /// Asks for settings for the frames to come. Called between two `grab`s by the thread that grabs; never
+  /// allocates and does not wait (a driver whose device is slow hands it to a thread of its own).
+  virtual SettingsResult apply(const CameraSettings& /*settings*/) noexcept {
+    return SettingsResult::kNoControl;
+  }
 };
 
 }  // namespace omma

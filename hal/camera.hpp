@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "fsw/kernel/tick.hpp"
@@ -48,12 +49,17 @@ struct Frame {
   CameraSettings settings{};  ///< those it was taken with, as far as the driver knows
 };
 
+/// The last frame id of a camera that goes on for as long as it is asked.
+inline constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
+
 class CameraDriver {
  public:
   virtual ~CameraDriver() = default;
   virtual std::string_view driver_name() const = 0;
   /// True when nothing will ever come any more (a recording played to its end).
   virtual bool at_end() const noexcept { return false; }
+  /// Frame id of the last frame that will ever come.
+  virtual std::uint64_t last_number() const noexcept { return kEndless; }
   /// Fetches the frame of trigger `number`. Never allocates; waits no longer than its own time-out.
   virtual Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept = 0;
 

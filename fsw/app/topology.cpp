@@ -19,39 +19,6 @@ StarCatalogue star_catalogue(const Mission& mission) {
   return {observer, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
 }
 
-std::vector<std::unique_ptr<RecordedCamera>> camera_drivers(const Mission& mission,
-                                                            const RunOptions& options) {
-  std::vector<std::unique_ptr<RecordedCamera>> drivers;
-  if (!options.with_cameras) return drivers;
-  std::uint64_t round_length = 0;
-  for (const RigCamera& camera : mission.rig.cameras) {
-    const std::string name(camera.name.view());
-    round_length = std::max(round_length, RecordedCamera::last_number_in(mission.recording, name) + 1);
-  }
-  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
-    const RigCamera& camera = mission.rig.cameras[c];
-    const int bits = mission.cameras[c].bits;
-    const RecordedCameraOptions recorded{
-        .playback = options.lockstep ? Playback::kLockstep : Playback::kRealTime,
-        .width = camera.lens.width(),
-        .height = camera.lens.height(),
-        .bits = bits > 8 ? 16 : 8,
-        .white_level = static_cast<std::uint16_t>((1 << bits) - 1),
-        .rounds = options.rounds,
-        .round_length = round_length};
-    drivers.push_back(
-        std::make_unique<RecordedCamera>(mission.recording, std::string(camera.name.view()), recorded));
-  }
-  return drivers;
-}
-
-std::vector<CameraDriver*> pointers(const std::vector<std::unique_ptr<RecordedCamera>>& drivers) {
-  std::vector<CameraDriver*> result;
-  result.reserve(drivers.size());
-  for (const auto& driver : drivers) result.push_back(driver.get());
-  return result;
-}
-
 std::uint32_t beats_per_second(double rate_hz) {
   return static_cast<std::uint32_t>(std::max(1LL, std::llround(rate_hz)));
 }
@@ -85,9 +52,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
     : mission_(mission),
       pool_(options.workers, options.lockstep ? 0 : kVisionPriority),
       catalogue_(star_catalogue(mission_)),
-      drivers_(camera_drivers(mission_, options)),
+      drivers_(mission_, options),
       sync_trigger(nullptr),
-      cameras(pointers(drivers_)),
+      cameras(drivers_.pointers()),
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
       attitude(mission_.attitude),
@@ -119,12 +86,6 @@ void Topology::connect() {
   telemetry.image.bind(imaging.chunk);
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
-}
-
-std::uint64_t Topology::frame_sets() const {
-  std::uint64_t last = 0;
-  for (const auto& driver : drivers_) last = std::max(last, driver->last_number());
-  return last + 1;
 }
 
 RateGroupTable Topology::table() {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,23 +14,16 @@
 #include "components/sync_trigger/sync_trigger.hpp"
 #include "components/telemetry/telemetry.hpp"
 #include "components/tracker/tracker.hpp"
+#include "fsw/app/camera_drivers.hpp"
 #include "fsw/app/mission.hpp"
+#include "fsw/app/run_options.hpp"
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/worker_pool.hpp"
 #include "fsw/services/events.hpp"
 #include "fsw/services/health.hpp"
-#include "hal/recorded/recorded_camera.hpp"
 
 namespace omma {
-
-/// How the program runs, as opposed to what it flies.
-struct RunOptions {
-  bool lockstep = true;      ///< replay: time waits for the program
-  int workers = 1;           ///< threads that share the extraction, the caller included
-  int rounds = 1;            ///< how often a recording is played
-  bool with_cameras = true;  ///< false: no camera is opened; to look at the wiring, not to fly
-};
 
 /// All components of the flight program, wired. Made once, before time starts; nothing in it moves
 /// afterwards.
@@ -46,14 +38,14 @@ class Topology {
   RateGroupTable table();
   /// Real-time privileges that the threads sharing the extraction were not granted.
   const Refusals& refusals() const { return pool_.refusals(); }
-  /// Frame sets until every recording has been played to its end.
-  std::uint64_t frame_sets() const;
+  /// CameraDrivers::frame_sets
+  std::uint64_t frame_sets() const { return drivers_.frame_sets(); }
 
  private:
   const Mission mission_;
   WorkerPool pool_;
   StarCatalogue catalogue_;
-  std::vector<std::unique_ptr<RecordedCamera>> drivers_;
+  CameraDrivers drivers_;
 
  public:
   Events events;

@@ -60,7 +60,7 @@ class RecordedCamera final : public CameraDriver {
   }
 
   std::uint64_t first_number() const noexcept { return files_.front().number; }
-  std::uint64_t last_number() const noexcept { return files_.back().number; }
+  std::uint64_t last_number() const noexcept override { return files_.back().number; }
   std::size_t frames() const noexcept { return files_.size(); }
   /// Frames so far whose file could not be decoded (a torn file, a disk error).
   std::uint32_t unreadable() const noexcept { return unreadable_.load(std::memory_order_relaxed); }

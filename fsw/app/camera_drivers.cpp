@@ -1,0 +1,58 @@
+#include "fsw/app/camera_drivers.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "hal/recorded/recorded_camera.hpp"
+
+namespace omma {
+namespace {
+
+// All recordings of a mission begin their next round together: after the longest.
+std::uint64_t round_length(const Mission& mission) {
+  std::uint64_t length = 0;
+  for (const RigCamera& camera : mission.rig.cameras) {
+    const std::string name(camera.name.view());
+    length = std::max(length, RecordedCamera::last_number_in(mission.recording, name) + 1);
+  }
+  return length;
+}
+
+std::unique_ptr<CameraDriver> recorded(const Mission& mission, std::size_t c, const RunOptions& options,
+                                       std::uint64_t round_length) {
+  const RigCamera& camera = mission.rig.cameras[c];
+  const int bits = mission.cameras[c].bits;
+  return std::make_unique<RecordedCamera>(
+      mission.recording, std::string(camera.name.view()),
+      RecordedCameraOptions{.playback = options.lockstep ? Playback::kLockstep : Playback::kRealTime,
+                            .width = camera.lens.width(),
+                            .height = camera.lens.height(),
+                            .bits = bits > 8 ? 16 : 8,
+                            .white_level = static_cast<std::uint16_t>((1 << bits) - 1),
+                            .rounds = options.rounds,
+                            .round_length = round_length});
+}
+
+}  // namespace
+
+CameraDrivers::CameraDrivers(const Mission& mission, const RunOptions& options) {
+  if (!options.with_cameras) return;
+  const std::uint64_t length = round_length(mission);
+  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c)
+    drivers_.push_back(recorded(mission, c, options, length));
+}
+
+std::vector<CameraDriver*> CameraDrivers::pointers() const {
+  std::vector<CameraDriver*> result;
+  result.reserve(drivers_.size());
+  for (const auto& driver : drivers_) result.push_back(driver.get());
+  return result;
+}
+
+std::uint64_t CameraDrivers::frame_sets() const {
+  std::uint64_t last = 0;
+  for (const auto& driver : drivers_) last = std::max(last, driver->last_number());
+  return last == kEndless ? kEndless : last + 1;
+}
+
+}  // namespace omma

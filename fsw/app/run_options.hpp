@@ -1,0 +1,13 @@
+// How the program runs, as opposed to what it flies.
+#pragma once
+
+namespace omma {
+
+struct RunOptions {
+  bool lockstep = true;      ///< replay: time waits for the program
+  int workers = 1;           ///< threads that share the extraction
+  int rounds = 1;            ///< how often a recording is played
+  bool with_cameras = true;  ///< false: no camera is opened; to look at the wiring, not to fly
+};
+
+}  // namespace omma

@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "components/telemetry/samples.hpp"
@@ -93,13 +92,10 @@ void TelemetryOutput::write(const telemetry::FrameReport::Entry& entry) {
 }
 
 void TelemetryOutput::set_texts(telemetry::EventSample& event) const {
-  const auto declared = std::find_if(events_.begin(), events_.end(), [&](const EventDescriptor& descriptor) {
-    return descriptor.id == event.record.id;
-  });
-  const bool known = declared != events_.end();
-  telemetry::set_text(event.sample.name,
-                      known ? std::string(declared->name) : "event_" + std::to_string(event.record.id));
-  telemetry::set_text(event.sample.text, known ? event_text(*declared, event.record) : std::string());
+  const EventDescriptor* const declared = find_event(events_, event.record.id);
+  telemetry::set_text(event.sample.name, event_name(declared, event.record.id));
+  telemetry::set_text(event.sample.text,
+                      declared != nullptr ? event_text(*declared, event.record) : std::string());
 }
 
 }  // namespace omma

@@ -10,6 +10,7 @@
 #include "components/telemetry/dds_sink.hpp"
 #include "components/telemetry/log_sink.hpp"
 #include "components/telemetry/telemetry_output.hpp"
+#include "fsw/app/flight_records.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/run_summary.hpp"
@@ -17,6 +18,7 @@
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/graph.hpp"
 #include "fsw/kernel/schedulability.hpp"
+#include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/services/schedule_events.hpp"
 
@@ -26,6 +28,7 @@ struct Arguments {
   std::string mission;
   std::string frames;
   std::string log;
+  std::string trace;
   std::uint64_t frame_sets = 0;
   int workers = 1;
   bool real_time = false;
@@ -37,9 +40,14 @@ struct Arguments {
 };
 
 omma::Scheduler* running = nullptr;
+omma::FlightRecords* recording = nullptr;
 
 extern "C" void stop_running(int /*signal*/) {
   if (running != nullptr) running->stop();
+}
+
+extern "C" void write_trace(int /*signal*/) {
+  if (recording != nullptr) recording->trace().request();
 }
 
 void say(const std::vector<std::string>& sentences) {
@@ -80,25 +88,32 @@ int fly(const Arguments& arguments) {
   omma::LockstepClock lockstep;
   omma::MonotonicClock monotonic;
   omma::Clock& clock = arguments.real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
-  omma::ScheduleEvents observer(topology.events);
-  omma::Scheduler scheduler(table, clock, observer);
+  omma::ScheduleEvents schedule_events(topology.events);
+  omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
+  omma::ScheduleObservers observers{&schedule_events, &records.recorder()};
+  omma::Scheduler scheduler(table, clock, observers);
   topology.health.observe(scheduler);
   omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
   add_sinks(arguments, mission, output);
   lockstep.before_each_tick([&output] { output.wait_for_room(); });
   if (arguments.real_time) say(omma::lock_process_memory());
   output.start();
+  records.start();
 
   running = &scheduler;
+  recording = &records;
   std::signal(SIGINT, stop_running);
   std::signal(SIGTERM, stop_running);
+  std::signal(SIGUSR1, write_trace);
   scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
   running = nullptr;
+  recording = nullptr;
   output.stop();
 
   say(topology.refusals());
   say(scheduler.refusals());
   say(output.failures());
+  say(records.stop());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);
   return 0;
 }
@@ -115,6 +130,10 @@ int main(int argc, char** argv) {
   app.add_option("--frame-sets", arguments.frame_sets, "stop after so many; default: when the frames end");
   app.add_option("--log", arguments.log,
                  "file (MCAP) for all telemetry; measured durations go to a second one beside it");
+  app.add_option(
+      "--trace", arguments.trace,
+      "file (JSON, for ui.perfetto.dev) for the flight recorder: written at the end and on SIGUSR1; "
+      "slips have files beside it");
   app.add_flag("--no-dds", arguments.no_dds, "publish nothing");
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));

@@ -9,6 +9,7 @@
 #include "fsw/app/topology.hpp"
 #include "fsw/services/event.hpp"
 #include "fsw/services/schedule_events.hpp"
+#include "fsw/services/trace_dump.hpp"
 
 namespace omma {
 
@@ -25,7 +26,7 @@ constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
 }
 
 /// Every event this program can raise.
-inline constexpr auto kEvents = joined(kScheduleEvents, kHealthEvents);
+inline constexpr auto kEvents = joined(kScheduleEvents, kHealthEvents, kTraceEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// One JSON object.

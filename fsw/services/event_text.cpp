@@ -1,6 +1,7 @@
 // Filling the numbers into an event's sentence.
 #include "fsw/services/event_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -51,6 +52,16 @@ std::string event_text(const EventDescriptor& descriptor, const EventRecord& rec
   }
   if (record.held_back > 0) sentence += " (and " + std::to_string(record.held_back) + " before it)";
   return sentence;
+}
+
+const EventDescriptor* find_event(std::span<const EventDescriptor> descriptors, std::uint16_t id) {
+  const auto at = std::find_if(descriptors.begin(), descriptors.end(),
+                               [id](const EventDescriptor& descriptor) { return descriptor.id == id; });
+  return at == descriptors.end() ? nullptr : &*at;
+}
+
+std::string event_name(const EventDescriptor* declared, std::uint16_t id) {
+  return declared != nullptr ? std::string(declared->name) : "event_" + std::to_string(id);
 }
 
 }  // namespace omma

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fsw/kernel/clock.hpp"
+
 namespace omma {
 namespace {
 
@@ -34,6 +36,7 @@ void Events::post(EventRecord& record, std::uint32_t burst, TimeNs interval_ns) 
   }
   record.held_back = held_back.exchange(0, std::memory_order_relaxed);
   raised_.fetch_add(1, std::memory_order_relaxed);
+  history_.put({record, MonotonicClock().now()});
   if (!push(record)) dropped_.fetch_add(1, std::memory_order_relaxed);
 }
 

@@ -1,14 +1,23 @@
 // The event service: raised from any step on any thread, throttled per id, kept in a ring until the telemetry
-// thread takes them. Raising is wait-free: it neither allocates, locks nor loops without a bound.
+// thread takes them. Raising is wait-free: it neither allocates, locks nor loops without a bound. The newest
+// are also kept in a history that never fills: whoever looks back (flight recorder, event store) reads it
+// there.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
 
+#include "fsw/kernel/history_ring.hpp"
 #include "fsw/services/event.hpp"
 
 namespace omma {
+
+/// An event and the instant it was raised.
+struct EventMoment {
+  EventRecord record;
+  TimeNs stamp_ns = 0;  ///< on the machine's monotonic clock, in a replay too
+};
 
 /// At most `burst` at once and one an interval on average: the generic cell rate algorithm (ITU-T I.371),
 /// which needs one number of memory.
@@ -24,6 +33,8 @@ class Throttle {
 class Events {
  public:
   static constexpr std::uint32_t kCapacity = 256;  ///< events waiting for telemetry
+  static constexpr std::size_t kHistory = 1024;    ///< newest events kept
+  using History = HistoryRing<EventMoment, Writers::kMany>;
 
   Events();
   Events(const Events&) = delete;
@@ -46,6 +57,9 @@ class Events {
   /// One reader (telemetry): the oldest event; false when there is none.
   bool take(EventRecord& record) noexcept;
 
+  /// Any number of readers, on any thread.
+  const History& history() const noexcept { return history_; }
+
   /// Events that passed the throttle since the start.
   std::uint64_t raised() const noexcept { return raised_.load(std::memory_order_relaxed); }
   /// Events that found the ring full, since the start.
@@ -67,6 +81,7 @@ class Events {
   std::array<Cell, kCapacity> cells_;
   alignas(64) std::atomic<std::uint32_t> tail_{0};  // producers
   alignas(64) std::uint32_t head_ = 0;              // the reader
+  History history_{kHistory};
   std::atomic<std::uint64_t> raised_{0};
   std::atomic<std::uint64_t> dropped_{0};
 };

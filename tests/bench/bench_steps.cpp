@@ -1,12 +1,14 @@
 // omma-bench steps: what the scheduler adds to a step: an empty component's beat against a bare virtual call
-// and against the clock readings it takes. Options: --ticks N.
+// and against the clock readings it takes; and what the flight recorder costs. Options: --ticks N.
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/kernel/thread_cpu_time.hpp"
+#include "fsw/services/flight_recorder.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 
@@ -24,8 +26,8 @@ class Empty final : public Component {
   std::string name_;
 };
 
-/// One beat of a group of `count` empty components [ns].
-double beat_ns(int count, std::uint64_t ticks) {
+/// One beat of a group of `count` empty components, with or without the flight recorder [ns].
+double beat_ns(int count, std::uint64_t ticks, bool recorded) {
   std::vector<std::unique_ptr<Empty>> components;
   RateGroup group{.name = "bench"};
   for (int i = 0; i < count; ++i) {
@@ -35,7 +37,11 @@ double beat_ns(int count, std::uint64_t ticks) {
   std::vector<double> times;
   for (int repeat = 0; repeat < 5; ++repeat) {
     LockstepClock clock;
-    Scheduler scheduler({.base_period = std::chrono::milliseconds(1), .groups = {group}}, clock);
+    const RateGroupTable table{.base_period = std::chrono::milliseconds(1), .groups = {group}};
+    FlightRecorder recorder(table, false);  // records as in real time
+    ScheduleObservers observers{};
+    if (recorded) observers = {&recorder};
+    Scheduler scheduler(table, clock, observers);
     times.push_back(microseconds([&] { scheduler.run(ticks); }) * 1e3 / static_cast<double>(ticks));
   }
   return quantile(times, 0);
@@ -64,14 +70,18 @@ int bench_steps(int argc, char** argv) {
   const double bare = call_ns(ticks, [&] { component->step({}); });
   const double wall = call_ns(ticks, [&] { sink += clock.now(); });
   const double cpu = call_ns(ticks, [&] { sink += thread_cpu_time(); });
-  const double one = beat_ns(1, ticks);
-  const double sixteen = beat_ns(16, ticks);
+  const double one = beat_ns(1, ticks, false);
+  const double each = (beat_ns(16, ticks, false) - one) / 15;
+  const double one_recorded = beat_ns(1, ticks, true);
+  const double each_recorded = (beat_ns(16, ticks, true) - one_recorded) / 15;
   std::printf("Cost of an empty step [ns] (checksum %d)\n", static_cast<int>(sink & 1));
   std::printf("  bare virtual call (reference)          %8.1f\n", bare);
   std::printf("  reading the wall clock                 %8.1f\n", wall);
   std::printf("  reading the thread's processor clock   %8.1f\n", cpu);
   std::printf("  beat of a group with one component     %8.1f\n", one);
-  std::printf("  each further component                 %8.1f\n", (sixteen - one) / 15);
+  std::printf("  each further component                 %8.1f\n", each);
+  std::printf("  the same with the flight recorder      %8.1f   and %.1f: %+.1f each\n", one_recorded,
+              each_recorded, each_recorded - each);
   print_memory_touched();
   return 0;
 }

@@ -33,7 +33,7 @@ void step_of_model();
 template <class T>
 class ModelAtomic {
  public:
-  ModelAtomic(T value) : value_(value) {}  // NOLINT: as std::atomic
+  ModelAtomic(T value = T{}) : value_(value) {}  // NOLINT: as std::atomic
   T load(std::memory_order) const {
     step_of_model();
     return value_;
@@ -47,6 +47,21 @@ class ModelAtomic {
     const T before = value_;
     value_ = value;
     return before;
+  }
+  T fetch_add(T value, std::memory_order) {
+    step_of_model();
+    const T before = value_;
+    value_ += value;
+    return before;
+  }
+  bool compare_exchange_strong(T& expected, T value, std::memory_order) {
+    step_of_model();
+    const bool same = value_ == expected;
+    if (same)
+      value_ = value;
+    else
+      expected = value_;
+    return same;
   }
 
  private:

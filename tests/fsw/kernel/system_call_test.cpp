@@ -14,7 +14,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
+#include "fsw/services/flight_recorder.hpp"
 #include "fsw/services/schedule_events.hpp"
 #include "tests/fsw/kernel/test_components.hpp"
 
@@ -85,10 +87,12 @@ int run_under_filter(bool guilty) {
   sink.number.bind(source.number);
   MonotonicClock clock;
   Events events;
-  ScheduleEvents observer(events);
-  Scheduler scheduler(
-      {.base_period = 500us, .groups = {{.name = "g", .components = {{seal}, {source, 1ns}, {sink, 1ns}}}}},
-      clock, observer);
+  ScheduleEvents schedule_events(events);
+  const RateGroupTable table{.base_period = 500us,
+                             .groups = {{.name = "g", .components = {{seal}, {source, 1ns}, {sink, 1ns}}}}};
+  FlightRecorder recorder(table, false);
+  ScheduleObservers observers{&schedule_events, &recorder};
+  Scheduler scheduler(table, clock, observers);
   running = &scheduler;
   scheduler.run();
   if (!filtered) return 77;

@@ -1,0 +1,36 @@
+#include "fsw/app/flight_records.hpp"
+
+#include <chrono>
+#include <stdexcept>
+
+#include "fsw/app/program_dictionary.hpp"
+#include "fsw/kernel/clock.hpp"
+
+namespace omma {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{20};
+
+}  // namespace
+
+FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, Events& events,
+                             const FlightRecordFiles& files)
+    : trace_at_end_(!files.trace.empty()),
+      recorder_(table, lockstep),
+      trace_(trace_at_end_ ? files.trace : kDefaultTrace,
+             trace_at_end_ ? SlipDumps::kWritten : SlipDumps::kNone, recorder_, events, kEvents),
+      chores_(kPeriod) {
+  if (trace_at_end_)  // whether it can be written shows now, not at the end
+    if (const std::string failure = trace_.write(); !failure.empty()) throw std::runtime_error(failure);
+  chores_.add([this] { trace_.serve(MonotonicClock().now()); });
+}
+
+std::vector<std::string> FlightRecords::stop() {
+  chores_.stop();
+  std::vector<std::string> failures{trace_.failure()};
+  if (trace_at_end_) failures.push_back(trace_.write());
+  std::erase(failures, "");
+  return failures;
+}
+
+}  // namespace omma

@@ -1,0 +1,45 @@
+// What the flight program keeps of its own doings, and the ordinary thread that writes it down: the flight
+// recorder and its traces.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "fsw/kernel/rate_group.hpp"
+#include "fsw/services/chores.hpp"
+#include "fsw/services/events.hpp"
+#include "fsw/services/flight_recorder.hpp"
+#include "fsw/services/trace_dump.hpp"
+
+namespace omma {
+
+struct FlightRecordFiles {
+  std::filesystem::path trace;  ///< empty: written only when asked for, to kDefaultTrace
+};
+
+class FlightRecords {
+ public:
+  static constexpr const char* kDefaultTrace = "omma-fsw.trace.json";  // in the working directory
+
+  /// @throws std::runtime_error, a sentence, where a file that was named cannot be written
+  FlightRecords(const RateGroupTable& table, bool lockstep, Events& events, const FlightRecordFiles& files);
+
+  /// To be told by the scheduler.
+  FlightRecorder& recorder() { return recorder_; }
+  /// For who wants a trace now.
+  TraceDump& trace() { return trace_; }
+
+  void start() { chores_.start(); }
+  /// After the scheduler has returned: writes what is due, and the trace where a file was named.
+  /// @return what could not be written, a sentence each
+  std::vector<std::string> stop();
+
+ private:
+  const bool trace_at_end_;
+  FlightRecorder recorder_;
+  TraceDump trace_;
+  Chores chores_;
+};
+
+}  // namespace omma

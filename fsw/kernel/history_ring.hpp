@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace omma {
@@ -29,17 +30,16 @@ class HistoryRing {
 
  public:
   /// Allocates and touches room for `capacity` records, rounded up to a power of two; nothing afterwards.
-  explicit HistoryRing(std::size_t capacity) : slots_(std::bit_ceil(capacity)) {}
+  explicit HistoryRing(std::size_t capacity)
+      : slots_(std::bit_ceil(capacity)), mask_(std::bit_ceil(capacity) - 1) {}
 
   /// @return false where many write and a slower writer, a whole round behind, is still in this record's
   /// place: it is lost then
   bool put(const Record& record) noexcept {
     const std::uint64_t number = next_number();
-    Slot& slot = slots_[number & (slots_.size() - 1)];
+    Slot& slot = slots_[number & mask_];
     if (!claim(slot, number)) return false;
-    const auto words = std::bit_cast<Words>(record);
-    // Released one by one: who sees a word of this record also sees that its turn has begun.
-    for (std::size_t i = 0; i < words.size(); ++i) slot.words[i].store(words[i], std::memory_order_release);
+    write(std::bit_cast<Words>(record), slot, std::make_index_sequence<std::tuple_size_v<Words>>());
     slot.turn.store(done(number), std::memory_order_release);
     return true;
   }
@@ -53,7 +53,7 @@ class HistoryRing {
   }
   /// @return false where record `number` is overwritten, not yet complete, or was lost
   bool read(std::uint64_t number, Record& record) const noexcept {
-    const Slot& slot = slots_[number & (slots_.size() - 1)];
+    const Slot& slot = slots_[number & mask_];
     if (slot.turn.load(std::memory_order_acquire) != done(number)) return false;
     Words words;
     for (std::size_t i = 0; i < words.size(); ++i) words[i] = slot.words[i].load(std::memory_order_acquire);
@@ -80,6 +80,12 @@ class HistoryRing {
     return number;
   }
 
+  // Released one by one: who sees a word of this record also sees that its turn has begun.
+  template <std::size_t... kIndex>
+  static void write(const Words& words, Slot& slot, std::index_sequence<kIndex...>) noexcept {
+    (slot.words[kIndex].store(words[kIndex], std::memory_order_release), ...);
+  }
+
   static bool claim(Slot& slot, std::uint64_t number) noexcept {
     if constexpr (kWriters == Writers::kOne) {
       slot.turn.store(begun(number), std::memory_order_relaxed);
@@ -92,6 +98,7 @@ class HistoryRing {
   }
 
   std::vector<Slot> slots_;
+  const std::uint64_t mask_;
   alignas(64) Atomic<std::uint64_t> written_{0};
 };
 

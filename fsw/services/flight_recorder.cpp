@@ -10,57 +10,47 @@ FlightRecorder::Group::Group(const RateGroup& group, std::size_t records) : name
 
 FlightRecorder::FlightRecorder(const RateGroupTable& table, bool lockstep, std::size_t records)
     : lockstep_(lockstep), step_end_ns_(table.groups.size(), 0) {
-  for (const RateGroup& group : table.groups) groups_.emplace_back(group, records);
+  for (const RateGroup& group : table.groups) groups_.push_back(std::make_unique<Group>(group, records));
 }
 
 void FlightRecorder::beat_started(std::uint16_t group, const Tick& tick, TimeNs latency_ns) noexcept {
   if (lockstep_) return;
-  groups_[group].ring.put(
-      {.start_ns = tick.time_ns, .duration_ns = latency_ns, .tick = tick.number, .kind = TraceKind::kBeat});
+  groups_[group]->ring.put(
+      {tick.time_ns, latency_ns, tick.number, TraceRecord::pack(TraceKind::kBeat, 0, 0)});
 }
 
 void FlightRecorder::component_stepped(SchedulePlace place, const Tick& tick, const StepTime& time) noexcept {
-  groups_[place.group].ring.put({.start_ns = time.start_ns,
-                                 .duration_ns = time.wall_ns,
-                                 .tick = tick.number,
-                                 .position = place.position,
-                                 .kind = TraceKind::kStep,
-                                 .left_processor = time.left_processor});
+  groups_[place.group]->ring.put(
+      {time.start_ns, time.wall_ns, tick.number,
+       TraceRecord::pack(TraceKind::kStep, place.position, time.left_processor ? 1 : 0)});
   step_end_ns_[place.group] = time.start_ns + time.wall_ns;
 }
 
-void FlightRecorder::over_budget(SchedulePlace place, const Tick& tick, const StepTime& time,
+void FlightRecorder::over_budget(SchedulePlace place, const Tick& tick, const StepTime&,
                                  TimeNs budget_ns) noexcept {
-  groups_[place.group].ring.put({.start_ns = time.start_ns + time.wall_ns,
-                                 .duration_ns = budget_ns,
-                                 .tick = tick.number,
-                                 .position = place.position,
-                                 .kind = TraceKind::kBreach});
+  mark(place, tick, budget_ns, TraceKind::kBreach, 0);
 }
 
 void FlightRecorder::budget_reaction(SchedulePlace place, const Tick& tick, BreachReaction reaction,
                                      int /*level*/) noexcept {
-  groups_[place.group].ring.put({.start_ns = step_end_ns_[place.group],
-                                 .tick = tick.number,
-                                 .value = static_cast<std::uint32_t>(reaction),
-                                 .position = place.position,
-                                 .kind = TraceKind::kReaction});
+  mark(place, tick, 0, TraceKind::kReaction, static_cast<std::uint32_t>(reaction));
 }
 
 void FlightRecorder::budget_recovered(SchedulePlace place, const Tick& tick, int level) noexcept {
-  groups_[place.group].ring.put({.start_ns = step_end_ns_[place.group],
-                                 .tick = tick.number,
-                                 .value = static_cast<std::uint32_t>(level),
-                                 .position = place.position,
-                                 .kind = TraceKind::kRecovered});
+  mark(place, tick, 0, TraceKind::kRecovered, static_cast<std::uint32_t>(level));
 }
 
 void FlightRecorder::missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept {
-  groups_[group].ring.put({.start_ns = first.time_ns,
-                           .tick = first.number,
-                           .value = static_cast<std::uint32_t>(count),
-                           .kind = TraceKind::kMissed});
+  groups_[group]->ring.put({first.time_ns, 0, first.number,
+                            TraceRecord::pack(TraceKind::kMissed, 0, static_cast<std::uint32_t>(count))});
   slips_.fetch_add(1, std::memory_order_release);
+}
+
+// A consequence of the step that has just ended.
+void FlightRecorder::mark(SchedulePlace place, const Tick& tick, TimeNs duration_ns, TraceKind kind,
+                          std::uint32_t value) noexcept {
+  groups_[place.group]->ring.put(
+      {step_end_ns_[place.group], duration_ns, tick.number, TraceRecord::pack(kind, place.position, value)});
 }
 
 }  // namespace omma

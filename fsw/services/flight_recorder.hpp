@@ -6,7 +6,7 @@
 
 #include <atomic>
 #include <cstdint>
-#include <deque>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,14 +25,22 @@ enum class TraceKind : std::uint8_t {
   kRecovered,  ///< `value`: the level to which it is degraded from now on
 };
 
+/// Four whole words, so that it is put together in registers: the last holds what is short.
 struct TraceRecord {
   TimeNs start_ns = 0;  ///< on the stopwatch
   TimeNs duration_ns = 0;
   std::uint64_t tick = 0;
-  std::uint32_t value = 0;
-  std::uint16_t position = 0;  ///< of the component in its group
-  TraceKind kind = TraceKind::kStep;
-  bool left_processor = false;  ///< kStep: it was pre-empted, or waited
+  std::uint64_t packed = 0;
+
+  /// @param position  of the component in its group
+  /// @param value     as the kind says; of a step: 1 when it was pre-empted or waited
+  static constexpr std::uint64_t pack(TraceKind kind, std::uint16_t position, std::uint32_t value) {
+    return static_cast<std::uint64_t>(value) << 32 | static_cast<std::uint64_t>(position) << 8 |
+           static_cast<std::uint64_t>(kind);
+  }
+  constexpr TraceKind kind() const { return static_cast<TraceKind>(packed & 0xff); }
+  constexpr std::uint16_t position() const { return static_cast<std::uint16_t>(packed >> 8); }
+  constexpr std::uint32_t value() const { return static_cast<std::uint32_t>(packed >> 32); }
 };
 
 class FlightRecorder final : public ScheduleObserver {
@@ -55,7 +63,7 @@ class FlightRecorder final : public ScheduleObserver {
   FlightRecorder(const RateGroupTable& table, bool lockstep, std::size_t records = kRecords);
 
   /// In the table's order; to be read from any thread.
-  const std::deque<Group>& groups() const { return groups_; }
+  const std::vector<std::unique_ptr<Group>>& groups() const { return groups_; }
   /// Times that beats were missed, all groups: a slip is worth looking at.
   std::uint64_t slips() const noexcept { return slips_.load(std::memory_order_relaxed); }
 
@@ -69,8 +77,11 @@ class FlightRecorder final : public ScheduleObserver {
   void missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept override;
 
  private:
+  void mark(SchedulePlace place, const Tick& tick, TimeNs duration_ns, TraceKind kind,
+            std::uint32_t value) noexcept;
+
   const bool lockstep_;
-  std::deque<Group> groups_;
+  std::vector<std::unique_ptr<Group>> groups_;
   std::vector<TimeNs> step_end_ns_;  // of each group's newest step: when its consequences are drawn
   std::atomic<std::uint64_t> slips_{0};
 };

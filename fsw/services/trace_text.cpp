@@ -82,9 +82,9 @@ void tick_argument(JsonText& arguments, const TraceRecord& record) {
 }
 
 void draw(const TraceRecord& record, const FlightRecorder::Group& group, int track, Drawing& drawing) {
-  if (record.position >= group.components.size()) return;
-  const std::string& component = group.components[record.position];
-  switch (record.kind) {
+  if (record.position() >= group.components.size()) return;
+  const std::string& component = group.components[record.position()];
+  switch (record.kind()) {
     case TraceKind::kBeat:
       drawing.counter("lateness of " + group.name + " [us]", track, record.start_ns + record.duration_ns)
           .key("us")
@@ -93,13 +93,13 @@ void draw(const TraceRecord& record, const FlightRecorder::Group& group, int tra
     case TraceKind::kStep: {
       JsonText& arguments = drawing.span(component, track, record.start_ns, record.duration_ns);
       tick_argument(arguments, record);
-      arguments.key("left_processor").boolean(record.left_processor);
+      arguments.key("left_processor").boolean(record.value() != 0);
       break;
     }
     case TraceKind::kMissed: {
       JsonText& arguments = drawing.mark("missed beats", track, record.start_ns);
       tick_argument(arguments, record);
-      arguments.key("count").number(record.value);
+      arguments.key("count").number(record.value());
       break;
     }
     case TraceKind::kBreach: {
@@ -111,13 +111,13 @@ void draw(const TraceRecord& record, const FlightRecorder::Group& group, int tra
     case TraceKind::kReaction: {
       JsonText& arguments = drawing.mark("budget reaction: " + component, track, record.start_ns);
       tick_argument(arguments, record);
-      arguments.key("reaction").string(reaction_name(record.value));
+      arguments.key("reaction").string(reaction_name(record.value()));
       break;
     }
     case TraceKind::kRecovered: {
       JsonText& arguments = drawing.mark("budget kept again: " + component, track, record.start_ns);
       tick_argument(arguments, record);
-      arguments.key("level").number(record.value);
+      arguments.key("level").number(record.value());
       break;
     }
   }
@@ -141,12 +141,12 @@ TraceText trace_text(const FlightRecorder& recorder, const Events& events,
   drawing.name_process("omma-fsw");
   drawing.name_track(kEventTrack, "events");
   int track = kEventTrack;
-  for (const FlightRecorder::Group& group : recorder.groups()) {
-    drawing.name_track(++track, group.name);
-    const std::uint64_t end = group.ring.written();
+  for (const auto& group : recorder.groups()) {
+    drawing.name_track(++track, group->name);
+    const std::uint64_t end = group->ring.written();
     TraceRecord record;
-    for (std::uint64_t number = group.ring.oldest(); number < end; ++number)
-      if (group.ring.read(number, record)) draw(record, group, track, drawing);
+    for (std::uint64_t number = group->ring.oldest(); number < end; ++number)
+      if (group->ring.read(number, record)) draw(record, *group, track, drawing);
   }
   const std::uint64_t end = events.history().written();
   EventMoment moment;

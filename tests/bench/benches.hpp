@@ -17,6 +17,7 @@ int bench_pipelines(int argc, char** argv);
 int bench_ports(int argc, char** argv);
 int bench_pose(int argc, char** argv);
 int bench_render(int argc, char** argv);
+int bench_rig_calibration(int argc, char** argv);
 int bench_steps(int argc, char** argv);
 int bench_target_identification(int argc, char** argv);
 

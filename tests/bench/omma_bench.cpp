@@ -33,6 +33,8 @@ constexpr Bench kBenches[] = {
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
     {"render", omma::bench_render, "the simulator: frame sets a second, one thread, no files"},
+    {"rig_calibration", omma::bench_rig_calibration,
+     "a rig calibrated on cards: error of one adjustment against one image a camera, NEES"},
     {"steps", omma::bench_steps, "what the scheduler adds to an empty step"},
     {"target_identification", omma::bench_target_identification,
      "targets from an unlabelled cloud of dots: solved, wrong, left open, time"},

@@ -32,6 +32,8 @@ constexpr Bench kBenches[] = {
     {"ports", omma::bench_ports, "moving a message within and between rate groups"},
     {"pose", omma::bench_pose,
      "pose from paired targets, warm and cold: time, error over bound, NEES, failures"},
+    {"real_sky", omma::bench_real_sky,
+     "the simulator beside a real photograph: stars found, brightness, width of the spots"},
     {"render", omma::bench_render, "the simulator: frame sets a second, one thread, no files"},
     {"rig_calibration", omma::bench_rig_calibration,
      "a rig calibrated on cards: error of one adjustment against one image a camera, NEES"},

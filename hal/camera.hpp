@@ -49,6 +49,17 @@ struct Frame {
   CameraSettings settings{};  ///< those it was taken with, as far as the driver knows
 };
 
+/// How a camera has done since the start; all zero for a driver that cannot lose anything.
+struct CameraHealth {
+  bool connected = true;
+  std::uint32_t delivered = 0;  ///< frames the device gave
+  std::uint32_t gaps = 0;       ///< frames the device numbered but never gave
+  std::uint32_t damaged = 0;    ///< frames the device itself called wrong
+  std::uint32_t unmatched = 0;  ///< good frames that belong to no trigger, or came too late for it
+  std::uint32_t overrun = 0;    ///< good frames nobody had room for
+  std::uint32_t losses = 0;     ///< times the device was lost, or its stream started anew after silence
+};
+
 /// The last frame id of a camera that goes on for as long as it is asked.
 inline constexpr std::uint64_t kEndless = std::numeric_limits<std::uint64_t>::max();
 
@@ -60,6 +71,8 @@ class CameraDriver {
   virtual bool at_end() const noexcept { return false; }
   /// Frame id of the last frame that will ever come.
   virtual std::uint64_t last_number() const noexcept { return kEndless; }
+  /// Wait-free.
+  virtual CameraHealth health() const noexcept { return {}; }
   /// Fetches the frame of trigger `number`. Never allocates; waits no longer than its own time-out.
   virtual Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept = 0;
 

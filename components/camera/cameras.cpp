@@ -2,7 +2,7 @@
 
 namespace omma {
 
-Cameras::Cameras(std::span<CameraDriver* const> drivers) {
+Cameras::Cameras(std::span<CameraDriver* const> drivers, Events& events) : events_(events) {
   for (CameraDriver* driver : drivers) drivers_.push_back(driver);
   frames->cameras.resize(drivers_.size());
 }
@@ -12,12 +12,13 @@ void Cameras::visit_ports(PortVisitor& visitor) const {
   visitor.output("frames", frames);
 }
 
-void Cameras::step(const Tick& /*tick*/) noexcept {
+void Cameras::step(const Tick& tick) noexcept {
   frames->number = trigger->number;
   frames->trigger_time_ns = trigger->time_ns;
   for (std::size_t c = 0; c < drivers_.size(); ++c) {
     Frame& frame = frames->cameras[c];
     frame = drivers_[c]->grab(trigger->number, trigger->time_ns);
+    tell(tick, c);
     if (frame.status == FrameStatus::kMissing) continue;
     // A frame of an earlier trigger is no frame of this one; the same one again and again is a dead camera.
     repeats_[c] = frame.number == last_number_[c] && trigger->number > 0 ? repeats_[c] + 1 : 0;
@@ -28,6 +29,21 @@ void Cameras::step(const Tick& /*tick*/) noexcept {
       frame.status = FrameStatus::kLate;
     }
   }
+}
+
+void Cameras::tell(const Tick& tick, std::size_t camera) noexcept {
+  const CameraHealth now = drivers_[camera]->health();
+  CameraHealth& told = told_[camera];
+  if (now.losses != told.losses) events_.raise<kCameraLost>(tick, camera, now.losses);
+  if (now.connected && !told.connected) events_.raise<kCameraBack>(tick, camera);
+  const auto lost = [](const CameraHealth& health) { return health.gaps + health.damaged + health.overrun; };
+  if (lost(now) != lost(told)) {
+    events_.raise<kCameraFramesLost>(tick, camera, now.gaps - told.gaps, now.damaged - told.damaged,
+                                     now.overrun - told.overrun);
+  }
+  if (now.unmatched != told.unmatched)
+    events_.raise<kCameraFramesUnmatched>(tick, camera, now.unmatched - told.unmatched);
+  told = now;
 }
 
 bool Cameras::at_end() const noexcept {

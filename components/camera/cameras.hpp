@@ -4,17 +4,20 @@
 #include <array>
 #include <span>
 
+#include "components/camera/camera_events.hpp"
 #include "components/camera/frames.hpp"
 #include "components/sync_trigger/trigger.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/events.hpp"
 
 namespace omma {
 
 class Cameras final : public Component {
  public:
   /// @param drivers  one per camera, in the order of the rig; they outlive this component
-  explicit Cameras(std::span<CameraDriver* const> drivers);
+  /// @param events   told what the cameras lost
+  Cameras(std::span<CameraDriver* const> drivers, Events& events);
 
   In<Trigger> trigger;
   Out<Frames> frames;
@@ -29,7 +32,11 @@ class Cameras final : public Component {
  private:
   static constexpr int kStuckAfter = 3;  // identical frame numbers in a row before a camera counts as stuck
 
+  void tell(const Tick& tick, std::size_t camera) noexcept;
+
+  Events& events_;
   StaticVector<CameraDriver*, limits::kCameras> drivers_;
+  std::array<CameraHealth, limits::kCameras> told_{};
   std::array<std::uint64_t, limits::kCameras> last_number_{};
   std::array<int, limits::kCameras> repeats_{};
 };

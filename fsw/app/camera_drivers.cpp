@@ -1,18 +1,25 @@
 #include "fsw/app/camera_drivers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "hal/live/live_camera.hpp"
 #include "hal/recorded/recorded_camera.hpp"
+#include "hal/sources/live_drivers.hpp"
 
 namespace omma {
 namespace {
 
+constexpr std::uint32_t kSlots = 6;
+constexpr int kPriority = 65;  // above the vision group: what a camera gives is taken out while a step runs
+
 // All recordings of a mission begin their next round together: after the longest.
 std::uint64_t round_length(const Mission& mission) {
   std::uint64_t length = 0;
-  for (const RigCamera& camera : mission.rig.cameras) {
-    const std::string name(camera.name.view());
+  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
+    if (mission.cameras[c].driver != "recorded") continue;
+    const std::string name(mission.rig.cameras[c].name.view());
     length = std::max(length, RecordedCamera::last_number_in(mission.recording, name) + 1);
   }
   return length;
@@ -35,11 +42,23 @@ std::unique_ptr<CameraDriver> recorded(const Mission& mission, std::size_t c, co
 
 }  // namespace
 
+bool has_live_cameras(const Mission& mission) {
+  return std::any_of(mission.cameras.begin(), mission.cameras.end(),
+                     [](const CameraMission& camera) { return camera.driver != "recorded"; });
+}
+
 CameraDrivers::CameraDrivers(const Mission& mission, const RunOptions& options) {
   if (!options.with_cameras) return;
   const std::uint64_t length = round_length(mission);
-  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c)
-    drivers_.push_back(recorded(mission, c, options, length));
+  const auto phase = std::make_shared<FramePhase>(std::llround(1e9 / mission.frame_rate_hz),
+                                                  std::llround(1e6 * mission.frame_delay_ms));
+  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
+    const CameraMission& camera = mission.cameras[c];
+    drivers_.push_back(camera.driver == "recorded"
+                           ? recorded(mission, c, options, length)
+                           : std::make_unique<LiveCamera>(make_frame_source(camera.driver, camera.setup),
+                                                          phase, camera.setup.timeout_ms));
+  }
 }
 
 std::vector<CameraDriver*> CameraDrivers::pointers() const {

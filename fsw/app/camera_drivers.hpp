@@ -12,6 +12,9 @@
 
 namespace omma {
 
+/// True where time cannot wait for the program.
+bool has_live_cameras(const Mission& mission);
+
 class CameraDrivers {
  public:
   /// Opens every camera of the mission, none where `options.with_cameras` is false.

@@ -81,13 +81,14 @@ int describe(const Arguments& arguments) {
 int fly(const Arguments& arguments) {
   omma::Mission mission = omma::read_mission(arguments.mission);
   if (!arguments.frames.empty()) mission.recording = arguments.frames;
-  omma::Topology topology(
-      mission, {.lockstep = !arguments.real_time, .workers = arguments.workers, .rounds = arguments.rounds});
+  const bool real_time = arguments.real_time || omma::has_live_cameras(mission);
+  omma::Topology topology(mission,
+                          {.lockstep = !real_time, .workers = arguments.workers, .rounds = arguments.rounds});
   const omma::RateGroupTable table = topology.table();
 
   omma::LockstepClock lockstep;
   omma::MonotonicClock monotonic;
-  omma::Clock& clock = arguments.real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
+  omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
   omma::ScheduleEvents schedule_events(topology.events);
   omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
   omma::ScheduleObservers observers{&schedule_events, &records.recorder()};
@@ -96,7 +97,7 @@ int fly(const Arguments& arguments) {
   omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
   add_sinks(arguments, mission, output);
   lockstep.before_each_tick([&output] { output.wait_for_room(); });
-  if (arguments.real_time) say(omma::lock_process_memory());
+  if (real_time) say(omma::lock_process_memory());
   output.start();
   records.start();
 
@@ -138,7 +139,8 @@ int main(int argc, char** argv) {
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));
   app.add_flag("--real-time", arguments.real_time,
-               "keep the mission's frame rate; default: as fast as possible, the same every time");
+               "keep the mission's frame rate, as live cameras always do; default: as fast as possible, the "
+               "same every time");
   app.add_option("--rounds", arguments.rounds, "play the recording so many times, one after the other")
       ->check(CLI::Range(1, 100000));
   CLI::Option* graph = app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");

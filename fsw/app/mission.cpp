@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/geometry/rig_file.hpp"
 #include "fsw/services/toml_table.hpp"
+#include "hal/sources/live_drivers.hpp"
 
 namespace omma {
 namespace {
@@ -30,8 +32,24 @@ ExtractorParameters read_extractor(const TomlTable& table) {
   return parameters;
 }
 
+void read_driver(const TomlTable& table, const Lens& lens, double frame_rate_hz, CameraMission& camera) {
+  camera.driver = table.text("driver");
+  if (camera.driver == "recorded") {
+    camera.bits = static_cast<int>(table.integer("bits", {8, 16}, 8));
+    return;
+  }
+  std::string known = "\"recorded\"";
+  bool live = false;
+  for (const std::string_view name : live_drivers()) {
+    known += ", \"" + std::string(name) + "\"";
+    live = live || name == camera.driver;
+  }
+  if (!live) throw table.error("driver", known, camera.driver);
+  camera.setup = read_camera_setup(table, lens.width(), lens.height(), frame_rate_hz);
+}
+
 // The mission's [[camera]] tables, put into the order of the rig; every camera of the rig exactly once.
-std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig) {
+std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, double frame_rate_hz) {
   std::vector<CameraMission> cameras(rig.cameras.size());
   std::vector<bool> seen(rig.cameras.size(), false);
   for (const TomlTable& table : root.tables("camera")) {
@@ -45,8 +63,7 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig) {
     seen[at] = true;
     CameraMission& camera = cameras[at];
     camera.driver = table.text("driver");
-    if (camera.driver != "recorded") throw table.error("driver", "\"recorded\"", camera.driver);
-    camera.bits = static_cast<int>(table.integer("bits", {8, 16}, 8));
+    read_driver(table, rig.cameras[at].lens, frame_rate_hz, camera);
     if (const auto extractor = table.table_if("extractor")) camera.extractor = read_extractor(*extractor);
     table.refuse_unknown_keys();
   }
@@ -143,7 +160,8 @@ Mission read_mission(const std::filesystem::path& file) {
     }
   }
   mission.rig = read_rig_file(root.path("rig"));
-  mission.cameras = read_cameras(root, mission.rig);
+  mission.cameras = read_cameras(root, mission.rig, mission.frame_rate_hz);
+  mission.frame_delay_ms = root.number("frame_delay_ms", {0, 10000}, 0);
   if (root.has("recording")) mission.recording = root.path("recording");
   mission.bodies = read_bodies(root);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);

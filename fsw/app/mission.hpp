@@ -12,13 +12,15 @@
 #include "components/geometry/rig.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/tracker/tracker_parameters.hpp"
+#include "hal/camera_setup.hpp"
 
 namespace omma {
 
 /// Where one camera's frames come from and how its dots are found.
 struct CameraMission {
-  std::string driver;  ///< "recorded"
-  int bits = 8;        ///< of a pixel: the white level is 2^bits − 1
+  std::string driver;  ///< "recorded", or one of live_drivers()
+  int bits = 8;        ///< of a pixel of a recorded camera: the white level is 2^bits − 1
+  CameraSetup setup;   ///< of a live camera
   ExtractorParameters extractor;
 };
 
@@ -29,7 +31,9 @@ struct Mission {
   std::string epoch_utc;  ///< of frame 0; empty: stars at their J2000 places
   Rig rig;
   std::vector<CameraMission> cameras;  ///< in the order of the rig
-  std::filesystem::path recording;     ///< folder of recorded frames, may be empty
+  double frame_delay_ms =
+      0;  ///< from a live frame's stamp to the trigger that collects it; 0: found from the first
+  std::filesystem::path recording;  ///< folder of recorded frames, may be empty
   std::vector<TargetBody> bodies;
   TrackerParameters tracker;
   AttitudeParameters attitude;

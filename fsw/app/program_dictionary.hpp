@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <string>
 
+#include "components/camera/camera_events.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/services/event.hpp"
 #include "fsw/services/schedule_events.hpp"
@@ -26,7 +27,7 @@ constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
 }
 
 /// Every event this program can raise.
-inline constexpr auto kEvents = joined(kScheduleEvents, kHealthEvents, kTraceEvents);
+inline constexpr auto kEvents = joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// One JSON object.

@@ -54,7 +54,7 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       catalogue_(star_catalogue(mission_)),
       drivers_(mission_, options),
       sync_trigger(nullptr),
-      cameras(drivers_.pointers()),
+      cameras(drivers_.pointers(), events),
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
       attitude(mission_.attitude),

@@ -143,6 +143,22 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   return result;
 }
 
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  for (const auto& [key, node] : *node_->table) keys.emplace_back(key.str());
+  return keys;
+}
+
+std::string TomlTable::word(std::string_view key) const {
+  const std::string expected = "a whole number, a text, true or false";
+  if (!has(key)) throw error(key, expected, "nothing");
+  const toml::node& node = *node_->table->get(key);
+  if (const auto text = node.value_exact<std::string>()) return *text;
+  if (const auto number = node.value_exact<std::int64_t>()) return std::to_string(*number);
+  if (const auto flag = node.value_exact<bool>()) return *flag ? "1" : "0";
+  throw error(key, expected, shown(node));
+}
+
 std::string TomlTable::text(std::string_view key, std::string_view otherwise) const {
   return has(key) ? text(key) : std::string(otherwise);
 }

@@ -37,6 +37,11 @@ class TomlTable {
   TomlTable table(std::string_view key) const;
   std::vector<TomlTable> tables(std::string_view key) const;  ///< [[key]], at least one
 
+  /// The keys of the table, for tables whose keys the user chooses.
+  std::vector<std::string> keys() const;
+  /// A whole number, a text, or true and false (1 and 0), as text.
+  std::string word(std::string_view key) const;
+
   // A key that may be left out.
   std::string text(std::string_view key, std::string_view otherwise) const;
   double number(std::string_view key, Range range, double otherwise) const;

@@ -63,8 +63,9 @@ struct ImageSize {
 ImageSize read_png_size(const std::filesystem::path& file);
 
 enum class PngEffort : std::uint8_t {
-  kFast,   ///< a few times faster, somewhat larger
-  kSmall,  ///< what a report should hold
+  kStored,  ///< not compressed: as fast as the disk
+  kFast,    ///< a few times faster, somewhat larger
+  kSmall,   ///< what a report should hold
 };
 
 /// A grey PNG of 8 or 16 bits. A white level below the format's largest is noted in the file and read back.

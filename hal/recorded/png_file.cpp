@@ -127,6 +127,10 @@ std::vector<std::byte> encode(int width, int height, int bit_depth, int color_ty
     check_encoding(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1));
     check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_UP));
   }
+  if (effort == PngEffort::kStored) {
+    check_encoding(spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 0));
+    check_encoding(spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_DISABLE_FILTERING));
+  }
   spng_ihdr header{};
   header.width = static_cast<std::uint32_t>(width);
   header.height = static_cast<std::uint32_t>(height);

@@ -36,6 +36,14 @@ struct RecordedCameraOptions {
 
 class RecordedCamera final : public CameraDriver {
  public:
+  struct File {
+    std::uint64_t number = 0;
+    std::filesystem::path path;
+  };
+  /// The frames of one camera's folder, by rising number.
+  /// @throws InputError: no folder, no frame in it, two files with one number
+  static std::vector<File> find_files(const std::filesystem::path& folder, const std::string& camera);
+
   /// Looks at the header of every frame, sizes the buffers and starts reading ahead.
   /// @throws InputError: no folder, no frame in it, two files with one number, a file that is no PNG, a frame
   /// of
@@ -68,17 +76,12 @@ class RecordedCamera final : public CameraDriver {
  private:
   static constexpr std::uint32_t kSlots = 4;  // frames read ahead, the one in use included
 
-  struct File {
-    std::uint64_t number = 0;
-    std::filesystem::path path;
-  };
   struct Slot {
     Image image;
     std::uint64_t number = 0;
     bool readable = false;
   };
 
-  static std::vector<File> find_files(const std::filesystem::path& folder, const std::string& camera);
   void check_headers(const RecordedCameraOptions& options) const;
   void repeat(const RecordedCameraOptions& options);
   void read_ahead();

@@ -116,12 +116,14 @@ bool may_include(const std::string& file, const std::string& target) {
   if (from == "fsw/services/") return false;
   if (from == "fsw/app/") return to != "sim/" && to != "ground/";
   if (to == "fsw/app/") return false;
-  if (starts(from, "hal/")) return is_hal_interface(target) || target == "fsw/services/text_input.hpp";
+  if (from == "hal/sources/") return starts(to, "hal/");  // the one that knows all live drivers
+  if (starts(from, "hal/"))
+    return is_hal_interface(target) || to == "hal/live/" || target == "fsw/services/text_input.hpp";
   if (to == "fsw/services/") return true;
   if (is_hal_interface(target)) return true;
   if (starts(from, "components/")) return is_shared_component(target) || is_pure_component_file(target);
   if (from == "sim/") return is_pure_component_file(target) || to == "hal/recorded/";
-  if (from == "ground/") return is_pure_component_file(target) || to == "hal/recorded/" || to == "sim/";
+  if (from == "ground/") return is_pure_component_file(target) || starts(to, "hal/") || to == "sim/";
   return false;
 }
 
@@ -150,6 +152,8 @@ TEST(Tree, TheRuleKnowsWrongFromRight) {
   EXPECT_FALSE(may_include("fsw/app/main.cpp", "sim/x.hpp"));
   EXPECT_TRUE(may_include("components/tracker/x.hpp", "components/extractor/dot.hpp"));
   EXPECT_TRUE(may_include("components/tracker/x.hpp", "config/limits.hpp"));
+  EXPECT_FALSE(may_include("hal/v4l2/x.cpp", "hal/sources/live_drivers.hpp"));
+  EXPECT_TRUE(may_include("hal/v4l2/x.cpp", "hal/live/frame_source.hpp"));
   EXPECT_TRUE(may_include("ground/x.cpp", "components/geometry/rig.hpp"));
   EXPECT_TRUE(may_include("fsw/app/main.cpp", "components/attitude/attitude.hpp"));
 }

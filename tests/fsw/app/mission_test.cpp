@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "components/telemetry/topics.hpp"
+#include "fsw/app/camera_drivers.hpp"
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -143,9 +144,46 @@ TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
   EXPECT_THAT(dictionary.at("idl").get<std::string>(), HasSubstr("struct Attitude"));
 }
 
+TEST_F(MissionFile, MayMixRecordedAndLiveCameras) {
+  replace(
+      "demo.toml", "driver = \"recorded\"\nbits = 12",
+      "driver = \"v4l2\"\ndevice = \"navcam0\"\nformat = \"Y16\"\nbits = 12\nbayer = \"green\"\nmemory = "
+      "\"dma-buf\"\n"
+      "controls = { exposure = 100, trigger = \"External\" }\ncontrol_names = { exposure = \"shutter\" }");
+  const Mission mission = read_mission(file());
+  EXPECT_TRUE(has_live_cameras(mission));
+  const CameraSetup& setup = mission.cameras[0].setup;
+  EXPECT_EQ(setup.device, "navcam0");
+  EXPECT_EQ(setup.width, 768);
+  EXPECT_EQ(setup.bits, 12);
+  EXPECT_EQ(setup.bayer, BayerUse::kGreen);
+  EXPECT_TRUE(setup.dma_buf);
+  ASSERT_EQ(setup.controls.size(), 2U);
+  EXPECT_EQ(setup.controls[0].value, "100");
+  EXPECT_EQ(setup.controls[1].value, "External");
+  EXPECT_EQ(setup.control_names[0].value, "shutter");
+  EXPECT_EQ(setup.frame_rate_hz, 10);
+  EXPECT_EQ(mission.cameras[1].driver, "recorded");
+}
+
+TEST_F(MissionFile, OfLiveCamerasThatMakeNoSenseIsRefused) {
+  const std::string recorded = "driver = \"recorded\"\nbits = 12";
+  replace("demo.toml", recorded, "driver = \"v4l2\"");
+  EXPECT_THAT(message(), HasSubstr("camera[0].device: expected a text, found nothing"));
+  replace("demo.toml", "driver = \"v4l2\"", "driver = \"v4l2\"\ndevice = \"x\"\nmemory = \"paper\"");
+  EXPECT_THAT(message(), HasSubstr("camera[0].memory: expected \"mmap\" or \"dma-buf\", found paper"));
+  replace("demo.toml", "memory = \"paper\"", "bayer = \"blue\"");
+  EXPECT_THAT(message(), HasSubstr("camera[0].bayer: expected \"grey\", \"green\" or \"raw\", found blue"));
+  replace("demo.toml", "bayer = \"blue\"", "controls = { gain = 1.5 }");
+  EXPECT_THAT(
+      message(),
+      HasSubstr("camera[0].controls.gain: expected a whole number, a text, true or false, found 1.5"));
+}
+
 TEST_F(MissionFile, WithAnUnknownDriverIsRefused) {
   replace("demo.toml", "driver = \"recorded\"", "driver = \"telepathy\"");
-  EXPECT_THAT(message(), HasSubstr("camera[0].driver: expected \"recorded\", found telepathy"));
+  EXPECT_THAT(message(), HasSubstr("camera[0].driver: expected \"recorded\", \"v4l2\", \"libcamera\", "
+                                   "\"simulated\", found telepathy"));
 }
 
 TEST_F(MissionFile, NamesTheTargetFileAndLineOfADuplicateTarget) {

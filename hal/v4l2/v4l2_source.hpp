@@ -1,0 +1,56 @@
+// Frames of a V4L2 capture device: memory-mapped buffers, or buffers exported as DMA-buf file descriptors.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/camera_setup.hpp"
+#include "hal/live/frame_source.hpp"
+#include "hal/v4l2/v4l2_device.hpp"
+
+namespace omma {
+
+class V4l2Source final : public FrameSource {
+ public:
+  /// @throws InputError: a format that is not understood, no size, or numbers out of range. The device is
+  /// first touched by `start`.
+  explicit V4l2Source(CameraSetup setup);
+  ~V4l2Source() override { stop(); }
+  V4l2Source(const V4l2Source&) = delete;
+  V4l2Source& operator=(const V4l2Source&) = delete;
+
+  std::string_view driver_name() const override { return "v4l2"; }
+  GreyShape shape() const override { return shape_; }
+  void start() override;
+  void stop() noexcept override;
+  Taken take(std::byte* pixels, int timeout_ms) noexcept override;
+
+ private:
+  struct Buffer {
+    void* memory = nullptr;
+    std::size_t size = 0;
+    int dma_file = -1;
+  };
+
+  [[noreturn]] void refuse(std::string_view field, const std::string& expected,
+                           const std::string& found) const;
+  void require(int error, std::string_view field, const std::string& expected) const;
+  void open();
+  void set_format();
+  void set_rate() const;
+  void map_buffers();
+  void map(Buffer& buffer, const v4l2_buffer& about);
+  bool queue(std::uint32_t index) const noexcept;
+  bool holds_whole_image(const v4l2_buffer& filled) const noexcept;
+  void read_out(const Buffer& buffer, std::byte* pixels) const noexcept;
+
+  CameraSetup setup_;
+  const PixelLayout* layout_;
+  GreyShape shape_;
+  v4l2::Device device_;
+  std::vector<Buffer> buffers_;
+  std::ptrdiff_t stride_ = 0;
+  bool streaming_ = false;
+};
+
+}  // namespace omma

@@ -5,6 +5,8 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/calibrate/calibrate.hpp"
+#include "ground/cameras/cameras.hpp"
+#include "ground/capture/capture.hpp"
 #include "ground/card/card.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
@@ -12,6 +14,7 @@
 #include "ground/dots/dots.hpp"
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
+#include "ground/feed/feed.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
@@ -33,7 +36,10 @@ int main(int argc, char** argv) {
   omma::ground::add_record(app, context);
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
+  omma::ground::add_feed(app, context);
   omma::ground::add_calibrate(app, context);
+  omma::ground::add_cameras(app, context);
+  omma::ground::add_capture(app, context);
   omma::ground::add_card(app, context);
   omma::ground::add_design(app, context);
   omma::ground::add_experiment(app, context);

@@ -96,10 +96,8 @@ TruthSpot read_spot(const Record& record, int cameras) {
     spot.id = record.text("id");
   } else if (kind == "moon") {
     spot.kind = TruthSpot::Kind::kMoon;
-  } else if (kind == "sun") {
-    spot.kind = TruthSpot::Kind::kSun;
   } else {
-    record.fail("kind", "star, target, moon or sun", kind);
+    record.fail("kind", "star, target or moon", kind);
   }
   spot.pixel = {record.number("u"), record.number("v")};
   spot.snr = record.number("snr");

@@ -1,0 +1,10 @@
+// `omma capture`: frames of live cameras to disk, every one of them, and a live view in the terminal.
+#pragma once
+
+#include "ground/command.hpp"
+
+namespace omma::ground {
+
+void add_capture(CLI::App& app, CommandContext& context);
+
+}  // namespace omma::ground

@@ -28,8 +28,7 @@ struct Patch {
 class PointSpread {
  public:
   /// @param sigma  standard deviation of the spot before integration over the pixel [px], 0.2 to 5
-  /// @param side   of the square in the middle of a pixel that sees light [px], 0.1 to 1
-  explicit PointSpread(double sigma, double side = 1);
+  explicit PointSpread(double sigma);
 
   double sigma() const { return sigma_; }
   /// The spot reaches this many pixels from the pixel that holds its centre; beyond lie 6e-7 of its light.

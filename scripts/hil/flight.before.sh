@@ -1,0 +1,4 @@
+#!/usr/bin/env bash
+# The demo's frames, rendered once.
+cd "$(dirname "$0")/../.."
+[ -f build/hil/frames/truth.jsonl ] || build/release/bin/omma simulate config/demo_scenario.toml --out build/hil/frames

@@ -10,10 +10,10 @@
 namespace omma::ground {
 namespace {
 
+// v4l2loopback gives a pixel of Y10 or Y12 ten or twelve bits of room, not the two bytes they have: Y16 for
+// all.
 std::uint32_t format_of(const ImageView& image) {
-  if (image.format == PixelFormat::kGrey8) return V4L2_PIX_FMT_GREY;
-  if (image.white_level <= 1023) return V4L2_PIX_FMT_Y10;
-  return image.white_level <= 4095 ? V4L2_PIX_FMT_Y12 : V4L2_PIX_FMT_Y16;
+  return image.format == PixelFormat::kGrey8 ? V4L2_PIX_FMT_GREY : V4L2_PIX_FMT_Y16;
 }
 
 std::size_t bytes_of(const ImageView& image) {
@@ -50,8 +50,11 @@ void VideoOutput::write(const ImageView& image) const {
   do {
     written = ::write(device_.file(), image.data, bytes_of(image));
   } while (written < 0 && errno == EINTR);
-  if (written != static_cast<ssize_t>(bytes_of(image)))
-    throw InputError(path_, 0, "device", "a device that takes a frame", std::strerror(errno));
+  if (written < 0) throw InputError(path_, 0, "device", "a device that takes a frame", std::strerror(errno));
+  if (written != static_cast<ssize_t>(bytes_of(image))) {
+    throw InputError(path_, 0, "device", "room for " + std::to_string(bytes_of(image)) + " bytes",
+                     "room for " + std::to_string(written));
+  }
 }
 
 std::int64_t VideoOutput::control(const std::string& name, std::int64_t otherwise) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -24,6 +25,7 @@ class ObedientScene {
   explicit ObedientScene(const sim::Scenario& scenario)
       : usual_(scenario), scenario_(scenario), stars_(sim::sky_of(scenario)) {
     prepare();
+    images_.resize(views_.size());
     for (std::size_t c = 0; c < views_.size(); ++c) {
       const ImageView image = renderer_->image(c);
       writers_.push_back(std::make_unique<SharedFramesWriter>(
@@ -70,6 +72,7 @@ class ObedientScene {
   std::vector<sim::CameraView> views_;
   std::optional<FrameSetRenderer> renderer_;
   std::vector<std::unique_ptr<SharedFramesWriter>> writers_;
+  std::vector<std::vector<std::byte>> images_;  // read out, waiting to be due
 };
 
 }  // namespace

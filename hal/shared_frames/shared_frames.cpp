@@ -117,9 +117,8 @@ void SharedFramesWriter::write(const std::byte* pixels, TimeNs time_ns) noexcept
   SharedFramesHeader& header = memory_.header();
   const std::uint32_t frame = header.written.load(std::memory_order_relaxed);
   SharedSlot& slot = memory_.slot(frame);
-  slot.frame.store(0, std::memory_order_relaxed);
-  std::atomic_thread_fence(
-      std::memory_order_release);  // a reader of the old frame sees that it is overwritten
+  slot.frame.exchange(
+      0, std::memory_order_acq_rel);  // before any pixel changes: a reader of the old frame sees it
   std::memcpy(memory_.pixels(frame), pixels, memory_.frame_bytes());
   slot.time_ns = time_ns;
   slot.frame.store(frame + 1, std::memory_order_release);

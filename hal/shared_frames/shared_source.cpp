@@ -78,13 +78,14 @@ Taken SharedSource::copy(std::uint32_t written, std::byte* pixels) noexcept {
   // The writer is at most `kSlots` frames ahead; the oldest slot may be in its hands.
   constexpr std::uint32_t kSafe = SharedFramesHeader::kSlots - 1;
   if (written - next_ > kSafe) next_ = written - kSafe;
-  const SharedSlot& slot = memory_.slot(next_);
+  SharedSlot& slot = memory_.slot(next_);
   Taken taken{TakeStatus::kDamaged, 0, next_};
   const bool before = slot.frame.load(std::memory_order_acquire) == next_ + 1;
   std::memcpy(pixels, memory_.pixels(next_), shape_.bytes());
   taken.time_ns = slot.time_ns;
-  std::atomic_thread_fence(std::memory_order_acquire);
-  if (before && slot.frame.load(std::memory_order_relaxed) == next_ + 1) taken.status = TakeStatus::kFrame;
+  // Not to be looked at before the pixels are copied: a read that is also a write orders what came before it.
+  if (before && slot.frame.fetch_add(0, std::memory_order_acq_rel) == next_ + 1)
+    taken.status = TakeStatus::kFrame;
   ++next_;
   return taken;
 }

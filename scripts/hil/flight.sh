@@ -19,12 +19,12 @@ dds() { echo "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"
 
 # A camera is a machine of its own: nothing on board holds it up.
 chrt -f 80 $BIN/omma feed $FRAMES --camera hdr1=/dev/video10 --camera cam0=/dev/video11 --camera cam2=/dev/video12 \
-  --rate 10 --log "$OUTPUT/fed.csv" > "$OUTPUT/feed.txt" 2>&1 &
+  --rate 10 --frames 100 --log "$OUTPUT/fed.csv" > "$OUTPUT/feed.txt" 2>&1 &
 FEED=$!
 CYCLONEDDS_URI=$(dds ground0) ip netns exec ground $BIN/omma record "$OUTPUT/heard.mcap" --until-idle 5 --seconds 60 \
   > "$OUTPUT/record.txt" 2>&1 &
 RECORD=$!
-until [ "$(wc -l < "$OUTPUT/fed.csv" 2>/dev/null || echo 0)" -ge 2 ]; do sleep 0.1; done
+until [ -s "$OUTPUT/fed.csv" ] || ! kill -0 $FEED 2>/dev/null; do sleep 0.1; done
 CYCLONEDDS_URI=$(dds space0) $BIN/omma-fsw config/hil.toml --log "$OUTPUT/flown.mcap" --frame-sets "${FRAME_SETS:-60}" \
   > "$OUTPUT/flight.txt" 2>&1
 status=$?

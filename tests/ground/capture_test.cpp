@@ -116,7 +116,8 @@ TEST(Capture, TakesTheLiveCamerasOfAMission) {
   arguments.mission = std::string(OMMA_SOURCE_DIR) + "/config/hil.toml";
   const auto cameras = capture_cameras(arguments);
   ASSERT_EQ(cameras.size(), 3U);
-  EXPECT_EQ(cameras[0].setup.format, "Y12");
+  EXPECT_EQ(cameras[0].setup.format, "Y16");
+  EXPECT_EQ(cameras[0].setup.bits, 12);
   EXPECT_EQ(cameras[0].setup.width, 768);
   EXPECT_EQ(cameras[0].setup.controls.size(), 2U);
   arguments.mission = std::string(OMMA_SOURCE_DIR) + "/config/demo.toml";

@@ -57,7 +57,7 @@ CameraDrivers::CameraDrivers(const Mission& mission, const RunOptions& options) 
     drivers_.push_back(camera.driver == "recorded"
                            ? recorded(mission, c, options, length)
                            : std::make_unique<LiveCamera>(make_frame_source(camera.driver, camera.setup),
-                                                          phase, camera.setup.timeout_ms));
+                                                          phase, camera.setup.timeout_ms, kSlots, kPriority));
   }
 }
 

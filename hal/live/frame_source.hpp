@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "fsw/kernel/tick.hpp"
+#include "hal/camera.hpp"
 #include "hal/live/pixel_layout.hpp"
 
 namespace omma {
@@ -38,6 +39,13 @@ class FrameSource {
   /// Waits for the next frame, no longer than `timeout_ms`, and converts it into `pixels` (shape().bytes()).
   /// Between `start` and `stop` only. Allocates nothing.
   virtual Taken take(std::byte* pixels, int timeout_ms) noexcept = 0;
+  /// What can be set while it runs; known after the first `start`.
+  virtual CameraSettingsRange settings_range() const { return {}; }
+  /// Those in effect as far as the driver knows. Between `start` and `stop` only.
+  virtual CameraSettings settings() const noexcept { return {}; }
+  /// Sets what lies in the range; on the thread that takes. Allocates nothing. @return false where the device
+  /// refused
+  virtual bool apply(const CameraSettings& /*settings*/) noexcept { return false; }
 };
 
 }  // namespace omma

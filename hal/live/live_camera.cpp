@@ -31,6 +31,7 @@ LiveCamera::LiveCamera(std::unique_ptr<FrameSource> source, std::shared_ptr<Fram
   for (Slot& slot : slots_) slot.pixels.resize(shape_.bytes());
   spare_.pixels.resize(shape_.bytes());
   source_->start();
+  range_ = source_->settings_range();
   watcher_ = std::thread([this] { watch(); });
 }
 
@@ -54,6 +55,7 @@ void LiveCamera::watch() {
       if (stop_) return;
     }
     if (open_) {
+      set_what_was_asked();
       take_one();
     } else {
       reopen();
@@ -61,23 +63,37 @@ void LiveCamera::watch() {
   }
 }
 
+void LiveCamera::set_what_was_asked() {
+  if (asked_.acquire()) {
+    settings_ = asked_.front();
+  } else if (!settings_ || source_->settings() == *settings_ || refused_.load(std::memory_order_relaxed)) {
+    return;  // nothing new, and the device has not forgotten it
+  }
+  refused_.store(!source_->apply(*settings_), std::memory_order_relaxed);
+}
+
+SettingsResult LiveCamera::apply(const CameraSettings& settings) noexcept {
+  if (range_.least == range_.most) return SettingsResult::kNoControl;
+  const auto lies_in = [](auto value, auto least, auto most) { return value >= least && value <= most; };
+  if (!lies_in(settings.exposure_ns, range_.least.exposure_ns, range_.most.exposure_ns) ||
+      !lies_in(settings.gain, range_.least.gain, range_.most.gain) ||
+      !lies_in(settings.black_level, range_.least.black_level, range_.most.black_level))
+    return SettingsResult::kOutOfRange;
+  if (!connected_.load(std::memory_order_relaxed) || refused_.load(std::memory_order_relaxed))
+    return SettingsResult::kFailed;
+  asked_.back() = settings;
+  asked_.publish();
+  return SettingsResult::kAccepted;
+}
+
 void LiveCamera::take_one() {
-  const std::uint32_t filled = filled_.load(std::memory_order_relaxed);
-  const bool room = filled - released_.load(std::memory_order_acquire) < slots_.size();
-  Slot& into = room ? slot(filled) : spare_;
-  const Taken taken = source_->take(into.pixels.data(), std::min(kPollMs, timeout_ms_));
+  const Taken taken = source_->take(spare_.pixels.data(), std::min(kPollMs, timeout_ms_));
   switch (taken.status) {
     case TakeStatus::kFrame:
       silent_ms_ = 0;
       count_gap(taken.sequence);
       count(delivered_);
-      into.time_ns = taken.time_ns;
-      into.sequence = taken.sequence;
-      if (room) {
-        filled_.store(filled + 1, std::memory_order_release);
-      } else {
-        count(overrun_);
-      }
+      keep_spare(taken);
       break;
     case TakeStatus::kDamaged:
       silent_ms_ = 0;
@@ -94,8 +110,22 @@ void LiveCamera::take_one() {
   }
 }
 
+void LiveCamera::keep_spare(const Taken& taken) {
+  const std::uint32_t filled = filled_.load(std::memory_order_relaxed);
+  if (filled - released_.load(std::memory_order_acquire) >= slots_.size()) {
+    if (wanted_.load(std::memory_order_relaxed)) count(overrun_);
+    return;
+  }
+  spare_.time_ns = taken.time_ns;
+  spare_.sequence = taken.sequence;
+  spare_.settings = source_->settings();
+  std::swap(spare_, slot(filled));
+  filled_.store(filled + 1, std::memory_order_release);
+}
+
 void LiveCamera::count_gap(std::uint32_t sequence) {
-  if (last_sequence_ && sequence > *last_sequence_ + 1) count(gaps_, sequence - *last_sequence_ - 1);
+  if (wanted_.load(std::memory_order_relaxed) && last_sequence_ && sequence > *last_sequence_ + 1)
+    count(gaps_, sequence - *last_sequence_ - 1);
   last_sequence_ = sequence;
 }
 
@@ -104,6 +134,7 @@ void LiveCamera::lose() {
   open_ = false;
   silent_ms_ = 0;
   last_sequence_.reset();
+  refused_.store(false, std::memory_order_relaxed);
   connected_.store(false, std::memory_order_relaxed);
   count(losses_);
   phase_->forget();
@@ -144,6 +175,7 @@ bool LiveCamera::release_and_peek() noexcept {
 }
 
 std::optional<LiveFrame> LiveCamera::next() noexcept {
+  wanted_.store(true, std::memory_order_relaxed);
   if (!release_and_peek()) return std::nullopt;
   in_use_ = true;
   const Slot& oldest = slot(released_.load(std::memory_order_relaxed));
@@ -155,6 +187,7 @@ Frame LiveCamera::grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept {
   frame.number = number;
   frame.exposure_midpoint_ns = trigger_time_ns;
   bool late = false;
+  const bool first = !wanted_.exchange(true, std::memory_order_relaxed);
   for (std::size_t i = 0; i <= slots_.size() && release_and_peek(); ++i) {
     const Slot& oldest = slot(released_.load(std::memory_order_relaxed));
     const TimeNs age = elapsed(oldest.time_ns, trigger_time_ns);
@@ -164,9 +197,11 @@ Frame LiveCamera::grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept {
     if (age < phase_->oldest()) {
       frame.image = view(oldest);
       frame.exposure_midpoint_ns = oldest.time_ns;
+      frame.settings = oldest.settings;
       frame.status = FrameStatus::kFresh;
       return frame;
     }
+    if (first) continue;  // it came before anyone asked
     count(unmatched_);
     late = true;
   }

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "fsw/kernel/triple_buffer.hpp"
 #include "hal/camera.hpp"
 #include "hal/live/frame_phase.hpp"
 #include "hal/live/frame_source.hpp"
@@ -45,6 +46,9 @@ class LiveCamera final : public CameraDriver {
   /// Fresh: the frame whose age at `trigger_time_ns` lies in the interval of the phase, its number the
   /// trigger's and its midpoint the device's stamp. Late: only an older one came. Wait-free.
   Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept override;
+  CameraSettingsRange settings_range() const noexcept override { return range_; }
+  /// Handed to the thread, which sets it before the next frame; after a loss, again.
+  SettingsResult apply(const CameraSettings& settings) noexcept override;
 
   /// The oldest frame not taken yet, whatever its time; none where there is none. Instead of `grab`, not
   /// beside it.
@@ -56,12 +60,15 @@ class LiveCamera final : public CameraDriver {
     std::vector<std::byte> pixels;
     TimeNs time_ns = 0;
     std::uint32_t sequence = 0;
+    CameraSettings settings;
   };
 
   void watch();
+  void set_what_was_asked();
   void take_one();
   void lose();
   void reopen();
+  void keep_spare(const Taken& taken);
   void count_gap(std::uint32_t sequence);
   ImageView view(const Slot& slot) const;
   bool release_and_peek() noexcept;
@@ -74,18 +81,24 @@ class LiveCamera final : public CameraDriver {
   int priority_;
 
   // A ring with one writer (the thread counts filled_ up) and one reader (grab counts released_ up); the
-  // frame in use is the oldest one. The writer never waits: a frame without room goes into spare_ and is
-  // counted.
+  // frame in use is the oldest one. The writer never waits: it takes every frame into spare_, which changes
+  // places with the next free slot where there is one.
   std::vector<Slot> slots_;
   Slot spare_;
   std::atomic<std::uint32_t> filled_{0};
   std::atomic<std::uint32_t> released_{0};
   bool in_use_ = false;  // the reader's: the oldest slot was handed out
 
+  CameraSettingsRange range_;               // of the device as it was at the start
+  TripleBuffer<CameraSettings> asked_;      // from who grabs to the thread
+  std::optional<CameraSettings> settings_;  // the thread's: asked for until now
+  std::atomic<bool> refused_{false};        // the device did not take the last ones
+
   std::optional<std::uint32_t> last_sequence_;  // the thread's
   int silent_ms_ = 0;
   bool open_ = true;
 
+  std::atomic<bool> wanted_{false};  // what is lost before the first frame is asked for is no loss
   std::atomic<bool> connected_{true};
   std::atomic<std::uint32_t> delivered_{0};
   std::atomic<std::uint32_t> gaps_{0};

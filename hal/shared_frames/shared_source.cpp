@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 #include <utility>
@@ -60,6 +61,24 @@ void SharedSource::start() {
   header.exposure_us.store(exposure_us_);
   header.gain_percent.store(gain_percent_);
   next_ = header.written.load(std::memory_order_acquire);
+}
+
+// What any sensor that is simulated can do; its own saturation says what is sensible.
+CameraSettingsRange SharedSource::settings_range() const {
+  return {{.exposure_ns = 1'000, .gain = 0.1F}, {.exposure_ns = 10'000'000'000, .gain = 100}};
+}
+
+CameraSettings SharedSource::settings() const noexcept {
+  return {.exposure_ns = TimeNs{exposure_us_} * 1000,
+          .gain = gain_percent_ > 0 ? static_cast<float>(gain_percent_) / 100 : 1};
+}
+
+bool SharedSource::apply(const CameraSettings& settings) noexcept {
+  exposure_us_ = static_cast<std::int32_t>(settings.exposure_ns / 1000);
+  gain_percent_ = static_cast<std::int32_t>(std::lround(settings.gain * 100));
+  memory_.header().exposure_us.store(exposure_us_);
+  memory_.header().gain_percent.store(gain_percent_);
+  return true;
 }
 
 Taken SharedSource::take(std::byte* pixels, int timeout_ms) noexcept {

@@ -18,6 +18,9 @@ class SharedSource final : public FrameSource {
   void start() override;
   void stop() noexcept override { memory_.close(); }
   Taken take(std::byte* pixels, int timeout_ms) noexcept override;
+  CameraSettingsRange settings_range() const override;
+  CameraSettings settings() const noexcept override;
+  bool apply(const CameraSettings& settings) noexcept override;
 
  private:
   Taken copy(std::uint32_t written, std::byte* pixels) noexcept;

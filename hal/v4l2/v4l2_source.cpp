@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
+constexpr TimeNs kExposureUnitNs = 100'000;  // of V4L2_CID_EXPOSURE_ABSOLUTE
+
 std::string format_text(const std::string& name, unsigned width, unsigned height) {
   return name + " of " + std::to_string(width) + " x " + std::to_string(height) + " px";
 }
@@ -34,12 +36,18 @@ v4l2_buffer buffer_query(std::uint32_t index) {
   return buffer;
 }
 
+// Drivers that do not say which clock they stamp by are believed where it can be the monotonic one; for
+// others it is the instant the frame is taken out.
 TimeNs stamp_of(const v4l2_buffer& filled) {
-  if ((filled.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
-    return TimeNs{filled.timestamp.tv_sec} * 1'000'000'000 + TimeNs{filled.timestamp.tv_usec} * 1000;
-  timespec now{};  // a driver whose stamps are on another clock: the instant it was taken out
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return TimeNs{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+  constexpr TimeNs kSecond = 1'000'000'000;
+  const TimeNs stamp = TimeNs{filled.timestamp.tv_sec} * kSecond + TimeNs{filled.timestamp.tv_usec} * 1000;
+  const std::uint32_t clock = filled.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK;
+  if (clock == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) return stamp;
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const TimeNs now = TimeNs{time.tv_sec} * kSecond + time.tv_nsec;
+  const bool plausible = stamp <= now && stamp > now - kSecond;
+  return clock == V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN && plausible ? stamp : now;
 }
 
 void mark_reading(int dma_file, std::uint64_t when) {
@@ -70,6 +78,7 @@ void V4l2Source::start() {
     set_format();
     set_rate();
     v4l2::apply_controls(device_, setup_);
+    find_exposure();
     map_buffers();
     int type = kCapture;
     require(device_.control(VIDIOC_STREAMON, &type), "device", "a stream from " + setup_.device);
@@ -115,6 +124,25 @@ void V4l2Source::set_rate() const {
   // A device with one rate only, or one that is triggered, refuses; its frames are matched by time all the
   // same.
   device_.control(VIDIOC_S_PARM, &parameters);
+}
+
+void V4l2Source::find_exposure() {
+  exposure_ = {};
+  for (const v4l2::Control& control : v4l2::controls_of(device_))
+    if (control.id == V4L2_CID_EXPOSURE_ABSOLUTE && !control.read_only) exposure_ = control;
+  exposure_ns_ = exposure_.value * kExposureUnitNs;
+}
+
+CameraSettingsRange V4l2Source::settings_range() const {
+  return {{.exposure_ns = exposure_.least * kExposureUnitNs},
+          {.exposure_ns = exposure_.most * kExposureUnitNs}};
+}
+
+bool V4l2Source::apply(const CameraSettings& settings) noexcept {
+  const std::int64_t units = settings.exposure_ns / kExposureUnitNs;
+  if (exposure_.id == 0 || v4l2::set_control(device_, exposure_, units) != 0) return false;
+  exposure_ns_ = settings.exposure_ns;
+  return true;
 }
 
 void V4l2Source::map_buffers() {

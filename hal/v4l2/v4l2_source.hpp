@@ -24,6 +24,10 @@ class V4l2Source final : public FrameSource {
   void start() override;
   void stop() noexcept override;
   Taken take(std::byte* pixels, int timeout_ms) noexcept override;
+  /// Exposure, where the device has exposure_time_absolute, whose unit is known; the unit of a gain is not.
+  CameraSettingsRange settings_range() const override;
+  CameraSettings settings() const noexcept override { return {.exposure_ns = exposure_ns_}; }
+  bool apply(const CameraSettings& settings) noexcept override;
 
  private:
   struct Buffer {
@@ -38,6 +42,7 @@ class V4l2Source final : public FrameSource {
   void open();
   void set_format();
   void set_rate() const;
+  void find_exposure();
   void map_buffers();
   void map(Buffer& buffer, const v4l2_buffer& about);
   bool queue(std::uint32_t index) const noexcept;
@@ -50,6 +55,8 @@ class V4l2Source final : public FrameSource {
   v4l2::Device device_;
   std::vector<Buffer> buffers_;
   std::ptrdiff_t stride_ = 0;
+  v4l2::Control exposure_;  // id 0: it has none
+  TimeNs exposure_ns_ = 0;
   bool streaming_ = false;
 };
 

@@ -80,9 +80,10 @@ TEST_F(SimulatedCamera, FrameBelongsToTheTriggerOfItsTime) {
 TEST_F(SimulatedCamera, FrameTooOldForItsTriggerIsLateAndCounted) {
   begin();
   LiveCamera camera = open();
+  camera.grab(0, 500'000'000);
   write(1, 500'000'000);
   ASSERT_TRUE(has_delivered(camera, 1));
-  EXPECT_EQ(camera.grab(0, 1'000'000'000).status, FrameStatus::kLate);
+  EXPECT_EQ(camera.grab(5, 1'000'000'000).status, FrameStatus::kLate);
   EXPECT_EQ(camera.health().unmatched, 1U);
 }
 
@@ -106,12 +107,29 @@ TEST_F(SimulatedCamera, PhaseIsLearntFromTheFirstFrameAndHeldByAll) {
 TEST_F(SimulatedCamera, FramesWithoutRoomAreCounted) {
   begin();
   LiveCamera camera = open();
+  camera.grab(0, 900'000'000);
   for (int n = 0; n < 30; ++n) {
     write(n, 940'000'000 + n * kPeriod);
     ASSERT_TRUE(has_delivered(camera, static_cast<std::uint32_t>(n + 1)));
   }
   EXPECT_EQ(camera.health().overrun, 30U - 6U);
-  EXPECT_EQ(level_of(camera.grab(0, 1'000'000'000)), 0);
+  EXPECT_EQ(level_of(camera.grab(1, 1'000'000'000)), 0);
+}
+
+TEST_F(SimulatedCamera, WhatCameBeforeAnyoneAskedIsNoLoss) {
+  begin();
+  LiveCamera camera = open();
+  for (int n = 0; n < 30; ++n) {
+    write(n, n * kPeriod);
+    ASSERT_TRUE(has_delivered(camera, static_cast<std::uint32_t>(n + 1)));
+  }
+  EXPECT_EQ(camera.grab(0, 30 * kPeriod).status, FrameStatus::kMissing);
+  const CameraHealth health = camera.health();
+  EXPECT_EQ(health.gaps + health.overrun + health.unmatched, 0U);
+  write(77, 31 * kPeriod - 60'000'000);
+  const std::uint32_t before = health.delivered;
+  ASSERT_TRUE(has_delivered(camera, before + 1));
+  EXPECT_EQ(level_of(camera.grab(1, 31 * kPeriod)), 77);
 }
 
 TEST_F(SimulatedCamera, IsLostWithItsProgramAndComesBackWithTheNext) {
@@ -175,6 +193,31 @@ TEST_F(SimulatedCamera, SettingsReachTheSimulator) {
   source.start();
   EXPECT_EQ(writer_->exposure_us(), 4321);
   EXPECT_EQ(writer_->gain_percent(), 250);
+}
+
+TEST_F(SimulatedCamera, SettingsOfTheFlightReachTheSimulatorAndComeBackWithTheFrames) {
+  begin();
+  LiveCamera camera = open();
+  EXPECT_EQ(camera.apply({.exposure_ns = 0}), SettingsResult::kOutOfRange);
+  EXPECT_EQ(writer_->exposure_us(), 0);
+  ASSERT_EQ(camera.apply({.exposure_ns = 20'000'000, .gain = 2}), SettingsResult::kAccepted);
+  ASSERT_TRUE(eventually([&] { return writer_->exposure_us() == 20'000; }));
+  EXPECT_EQ(writer_->gain_percent(), 200);
+  write(1, 940'000'000);
+  ASSERT_TRUE(has_delivered(camera, 1));
+  EXPECT_EQ(camera.grab(0, 1'000'000'000).settings, (CameraSettings{.exposure_ns = 20'000'000, .gain = 2}));
+}
+
+TEST_F(SimulatedCamera, SettingsAreSetAgainAfterALoss) {
+  begin();
+  LiveCamera camera = open();
+  ASSERT_EQ(camera.apply({.exposure_ns = 20'000'000}), SettingsResult::kAccepted);
+  ASSERT_TRUE(eventually([&] { return writer_->exposure_us() == 20'000; }));
+  writer_.reset();
+  ASSERT_TRUE(eventually([&] { return !camera.health().connected; }));
+  EXPECT_EQ(camera.apply({.exposure_ns = 30'000'000}), SettingsResult::kFailed);
+  begin();
+  EXPECT_TRUE(eventually([&] { return writer_->exposure_us() == 20'000; }));
 }
 
 std::string message(const std::function<void()>& act) {

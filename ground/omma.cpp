@@ -11,6 +11,7 @@
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
 #include "ground/design/design.hpp"
+#include "ground/design/predict.hpp"
 #include "ground/dots/dots.hpp"
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
   omma::ground::add_capture(app, context);
   omma::ground::add_card(app, context);
   omma::ground::add_design(app, context);
+  omma::ground::add_predict(app, context);
   omma::ground::add_experiment(app, context);
   omma::ground::add_stars(app, context);
   omma::ground::add_dots(app, context);

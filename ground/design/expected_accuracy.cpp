@@ -6,38 +6,13 @@
 
 #include "components/catalogue/star_catalogue.hpp"
 #include "ground/design/even_sphere.hpp"
-#include "ground/report/bound.hpp"
+#include "ground/design/prediction.hpp"
 #include "ground/report/statistics.hpp"
 
 namespace omma::ground {
 namespace {
 
 constexpr int kAttitudes = 500;
-
-bool every_spot(const TruthSpot& /*spot*/) {
-  return true;
-}
-
-std::vector<TruthSpot> star_spots(const PaperRig& paper, std::span<const SkyStar> stars,
-                                  const Eigen::Quaterniond& rig_from_j2000, double dot_sigma) {
-  std::vector<TruthSpot> spots;
-  for (std::size_t c = 0; c < paper.rig.cameras.size(); ++c) {
-    const RigCamera& camera = paper.rig.cameras[c];
-    const Eigen::Matrix3d camera_from_j2000 =
-        (camera.rig_from_camera.rotation.conjugate() * rig_from_j2000).toRotationMatrix();
-    const double least_cosine = std::cos(paper.reach(c));
-    for (const SkyStar& star : stars) {
-      const Eigen::Vector3d direction = camera_from_j2000 * star.direction;
-      if (direction.z() < least_cosine) continue;
-      TruthSpot spot;
-      if (!paper.sees(c, direction, spot.pixel)) continue;
-      spot.camera = static_cast<int>(c);
-      spot.information = Eigen::Matrix2d::Identity() / (dot_sigma * dot_sigma);
-      spots.push_back(spot);
-    }
-  }
-  return spots;
-}
 
 }  // namespace
 
@@ -61,14 +36,14 @@ ExpectedSky expected_sky(const PaperRig& paper, double magnitude, double dot_sig
   std::vector<double> sigma;
   int unsolvable = 0;
   for (const Eigen::Quaterniond& attitude : even_attitudes(kAttitudes)) {
-    const std::vector<TruthSpot> spots = star_spots(paper, catalogue.stars(), attitude, dot_sigma);
+    const SeenSights seen = seen_stars(paper, catalogue.stars(), attitude, {.sigma_px = dot_sigma});
     std::vector<int> count(paper.rig.cameras.size(), 0);
-    for (const TruthSpot& spot : spots) ++count[static_cast<std::size_t>(spot.camera)];
+    for (const SightSource& source : seen.sources) ++count[source.camera];
     for (std::size_t c = 0; c < count.size(); ++c) per_camera[c].push_back(count[c]);
-    together.push_back(static_cast<double>(spots.size()));
-    Eigen::Matrix3d covariance;
-    if (spots.size() >= 3 && bound_of(attitude_information(paper.rig, spots, every_spot), covariance)) {
-      sigma.push_back(std::sqrt(covariance.trace() / 3));
+    together.push_back(static_cast<double>(seen.sights.size()));
+    const auto predicted = predict_attitude(paper, catalogue.stars(), attitude, dot_sigma, {});
+    if (seen.sights.size() >= 3 && predicted) {
+      sigma.push_back(std::sqrt(predicted->noise.topLeftCorner<3, 3>().trace() / 3));
     } else {
       ++unsolvable;
     }
@@ -83,34 +58,31 @@ ExpectedSky expected_sky(const PaperRig& paper, double magnitude, double dot_sig
 
 std::vector<std::optional<ExpectedPose>> expected_pose(const PaperRig& paper, const TargetBody& body,
                                                        double range, double dot_sigma) {
-  // The body's x to the camera's right, y up, z back at the camera.
-  const Eigen::Quaterniond camera_from_body(0, 1, 0, 0);
   std::vector<std::optional<ExpectedPose>> all;
   for (std::size_t c = 0; c < paper.rig.cameras.size(); ++c) {
-    const RigCamera& camera = paper.rig.cameras[c];
-    const Pose rig_from_body = camera.rig_from_camera * Pose{camera_from_body, Eigen::Vector3d(0, 0, range)};
-    std::vector<TruthSpot> spots;
-    for (const Target& target : body.targets) {
-      TruthSpot spot;
-      spot.kind = TruthSpot::Kind::kTarget;
-      spot.camera = static_cast<int>(c);
-      spot.body = body.name.view();
-      spot.id = target.id.view();
-      spot.information = Eigen::Matrix2d::Identity() / (dot_sigma * dot_sigma);
-      const Eigen::Vector3d in_camera = camera.rig_from_camera.inverse() * (rig_from_body * target.position);
-      if (paper.sees(c, in_camera, spot.pixel)) spots.push_back(spot);
-    }
-    Matrix6d covariance;
-    if (spots.size() < 3 ||
-        !bound_of(pose_information(paper.rig, spots, body, rig_from_body, every_spot), covariance)) {
+    PaperRig alone;  // what this camera would know by itself
+    alone.rig.cameras.push_back(paper.rig.cameras[c]);
+    alone.half_field.push_back(paper.half_field[c]);
+    const auto predicted = predict_pose(alone, body, facing_camera(paper, c, range), dot_sigma, {});
+    if (!predicted) {
       all.emplace_back(std::nullopt);
       continue;
     }
-    all.push_back(ExpectedPose{static_cast<int>(spots.size()),
-                               std::sqrt(covariance.bottomRightCorner<3, 3>().trace()),
-                               std::sqrt(covariance.topLeftCorner<3, 3>().trace())});
+    all.push_back(ExpectedPose{static_cast<int>(predicted->dots),
+                               std::sqrt(predicted->noise.bottomRightCorner<3, 3>().trace()),
+                               std::sqrt(predicted->noise.topLeftCorner<3, 3>().trace())});
   }
   return all;
+}
+
+Pose facing_camera(const PaperRig& paper, std::size_t camera, double range, double tilt, double off_axis) {
+  // The body's x to the camera's right, y up, z back at the camera; then tilted about its own x, and carried
+  // off the axis to the camera's right.
+  const Eigen::Quaterniond facing(0, 1, 0, 0);
+  const Eigen::Quaterniond tilted = facing * rotation_exp({tilt, 0, 0});
+  const Eigen::Quaterniond aside = rotation_exp({0, off_axis, 0});
+  return paper.rig.cameras[camera].rig_from_camera *
+         Pose{aside * tilted, aside * Eigen::Vector3d(0, 0, range)};
 }
 
 }  // namespace omma::ground

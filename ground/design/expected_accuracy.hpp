@@ -43,6 +43,13 @@ struct ExpectedPose {
 std::vector<std::optional<ExpectedPose>> expected_pose(const PaperRig& paper, const TargetBody& body,
                                                        double range, double dot_sigma);
 
+/// rig_from_body of a body before one camera, its z axis pointing back at it.
+/// @param range     of its origin from the camera [m]
+/// @param tilt      of the body about its x axis away from facing the camera [rad]
+/// @param off_axis  of its origin from the optical axis, to the camera's right [rad]
+Pose facing_camera(const PaperRig& paper, std::size_t camera, double range, double tilt = 0,
+                   double off_axis = 0);
+
 Spread spread_of(std::vector<double> samples);
 
 }  // namespace omma::ground

@@ -30,4 +30,8 @@ inline PaperRig whole_images(const Rig& rig) {
   return {rig, std::vector<double>(rig.cameras.size(), std::numbers::pi)};
 }
 
+/// @param fields_deg  full field of view of the image circles [degrees]: none, one, or one a camera
+/// @throws InputError for another number of fields
+PaperRig with_fields(const Rig& rig, const std::vector<double>& fields_deg);
+
 }  // namespace omma::ground

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/estimation/least_squares.hpp"
+#include "components/estimation/pose_search.hpp"
 #include "components/extractor/dot_extractor.hpp"
 #include "components/tracker/body_pairing.hpp"
 #include "components/tracker/seen_dots.hpp"
@@ -62,6 +63,7 @@ struct CardResector::Work {
 
   void extract(const std::vector<ImageView>& images);
   bool identify(Resection& resection);
+  bool start_by_hand(const std::vector<ManualPair>& pairs, Resection& resection) const;
   bool pair_and_solve(double error, Resection& resection);
   void residuals(Resection& resection) const;
   void finish(Resection& resection) const;
@@ -99,6 +101,24 @@ bool CardResector::Work::identify(Resection& resection) {
   resection.reason = reason(found.status);
   if (found.status == TargetIdentificationStatus::kTooFewDots)
     resection.reason += " (" + std::to_string(seen.rays().size()) + ")";
+  return false;
+}
+
+// A pose from the pairs alone, a few of them wrong at most; what the dots then say replaces them.
+bool CardResector::Work::start_by_hand(const std::vector<ManualPair>& pairs, Resection& resection) const {
+  resection.by_hand = true;
+  std::vector<Sight> sights;
+  for (const ManualPair& pair : pairs) {
+    Dot dot;
+    dot.pixel = pair.pixel;
+    dot.covariance = kHandSigmaPx * kHandSigmaPx * Eigen::Matrix2d::Identity();
+    RigDot ray;
+    if (rig_dot(dot, 0, rig.cameras[pair.camera], static_cast<std::uint8_t>(pair.camera), 0, ray))
+      sights.push_back(SeenDots::sight(ray, body.targets[pair.target].position));
+  }
+  resection.pose = find_pose(sights, SolveOptions{}, {});
+  if (usable(resection.pose)) return true;
+  resection.reason = "the pairs picked by hand do not make one pose";
   return false;
 }
 
@@ -155,10 +175,11 @@ const DotLists& CardResector::dots() const {
   return work_->dots;
 }
 
-Resection CardResector::resect(const std::vector<ImageView>& images) {
+Resection CardResector::resect(const std::vector<ImageView>& images, const std::vector<ManualPair>& by_hand) {
   Resection resection;
   work_->extract(images);
-  if (!work_->identify(resection)) return resection;
+  const bool begun = by_hand.empty() ? work_->identify(resection) : work_->start_by_hand(by_hand, resection);
+  if (!begun) return resection;
   // As for stars: solve, measure what the lens file is wrong by, solve again with what was measured.
   double error = kLensErrorAtFirst;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -12,6 +12,7 @@
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
 #include "ground/photographs/solved_pairs.hpp"
+#include "ground/resect/manual_pairs.hpp"
 #include "hal/image.hpp"
 
 namespace omma::ground {
@@ -29,6 +30,7 @@ struct Resection {
   double lens_error_px = 0;       ///< added to the dots' own standard deviation, per axis
   double range = 0;               ///< from the rig's origin to the middle of the targets [m]
   double range_sigma = 0;         ///< [m]
+  bool by_hand = false;           ///< begun from pairs picked by hand, not from the pattern
   double log10_chance_match = 0;  ///< of the expected number of such labellings among dots at random
 };
 
@@ -38,7 +40,8 @@ class CardResector {
   ~CardResector();
 
   /// @param images  one per camera of the rig; an empty view where a camera has none
-  Resection resect(const std::vector<ImageView>& images);
+  /// @param by_hand  where to begin; without any, from the pattern alone
+  Resection resect(const std::vector<ImageView>& images, const std::vector<ManualPair>& by_hand = {});
 
   /// The dots of the images resected last.
   const DotLists& dots() const;

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "components/catalogue/target_file.hpp"
+#include "fsw/kernel/input_error.hpp"
 #include "ground/photographs/photographs.hpp"
 #include "ground/resect/card_resector.hpp"
 #include "ground/resect/resect_report.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct Arguments {
   PhotographArguments photographs;
   std::string targets;
+  std::string pairs;
   std::string polarity;
   double gain = 0;
   double black_level = 0;
@@ -36,7 +38,9 @@ bool resect_set(const Arguments& arguments, const TargetBody& body, std::size_t 
   const Photographs photographs = read_photographs(arguments.photographs, set);
   const std::vector<ImageView> views = photographs.views();
   CardResector resector(photographs.rig, body, extractor_of(arguments, body));
-  const Resection resection = resector.resect(views);
+  std::vector<ManualPair> by_hand;
+  if (!arguments.pairs.empty()) by_hand = read_manual_pairs(arguments.pairs, photographs.rig, body);
+  const Resection resection = resector.resect(views, by_hand);
   const std::string told = arguments.json ? resection_json(photographs.rig, resection, resector.dots())
                                           : resection_text(photographs.rig, resection, resector.dots());
   std::fputs(told.c_str(), stdout);
@@ -51,6 +55,9 @@ bool resect_set(const Arguments& arguments, const TargetBody& body, std::size_t 
 int resect(const Arguments& arguments) {
   check(arguments.photographs);
   const TargetBody body = read_target_file(arguments.targets);
+  if (!arguments.pairs.empty() && set_count(arguments.photographs) > 1)
+    throw InputError("arguments", 0, "--pairs", "one image, or one image of each camera of a rig",
+                     std::to_string(set_count(arguments.photographs)) + " images");
   bool all_solved = true;
   for (std::size_t set = 0; set < set_count(arguments.photographs); ++set)
     all_solved = resect_set(arguments, body, set) && all_solved;
@@ -66,6 +73,9 @@ void add_resect(CLI::App& app, CommandContext& context) {
   add_photograph_options(*command, arguments->photographs);
   command->add_option("--targets", arguments->targets, "target database: id x y z group type, tab-separated")
       ->required();
+  command->add_option(
+      "--pairs", arguments->pairs,
+      "begin from pairs picked by hand, one a line: u v TARGET, with a rig CAMERA u v TARGET");
   command
       ->add_option("--polarity", arguments->polarity,
                    "side of the background the targets are on; default: by their types in the database")

@@ -59,8 +59,12 @@ std::string resection_text(const Rig& rig, const Resection& resection, const Dot
                  sigma(1) * kDegrees, sigma(2) * kDegrees);
   text += format("range            %.5f m, 1-sigma %.3f mm, to the middle of the targets\n", resection.range,
                  resection.range_sigma * kMillimetres);
-  text += format("residual rms     %.3f px; lens error taken as %.3f px; chance match 1e%.0f\n",
-                 resection.residual_rms_px, resection.lens_error_px, resection.log10_chance_match);
+  text += format("residual rms     %.3f px; lens error taken as %.3f px; ", resection.residual_rms_px,
+                 resection.lens_error_px);
+  text += resection.by_hand ? std::string("begun from pairs picked by hand\n")
+                            : format("chance match 1e%.0f\n", resection.log10_chance_match);
+  const Pose body_from_rig = resection.pose.rig_from_body.inverse();
+  text += "body_from_rig\n" + pose_text(body_from_rig);
   if (resection.pose.has_alternative) {
     text += format("%s (chi2 %.1f against %.1f)\n", doubt(resection.pose), resection.pose.alternative_chi2,
                    resection.pose.chi2);
@@ -79,6 +83,8 @@ std::string resection_json(const Rig& rig, const Resection& resection, const Dot
   if (resection.solved) {
     const Vector6d sigma = resection.pose.covariance.diagonal().cwiseSqrt();
     json["rig_from_body"] = pose_json(resection.pose.rig_from_body);
+    json["body_from_rig"] = pose_json(resection.pose.rig_from_body.inverse());
+    json["by_hand"] = resection.by_hand;
     json["sigma_deg"] = three(sigma.head<3>() * kDegrees);
     json["sigma_m"] = three(sigma.tail<3>());
     json["range_m"] = resection.range;
@@ -88,8 +94,8 @@ std::string resection_json(const Rig& rig, const Resection& resection, const Dot
         resection.pose.has_alternative ? pose_json(resection.pose.alternative) : ordered_json(nullptr);
     for (const int count : resection.targets_used) used += count;
   } else {
-    for (const char* field :
-         {"rig_from_body", "sigma_deg", "sigma_m", "range_m", "range_sigma_m", "ambiguous", "alternative"}) {
+    for (const char* field : {"rig_from_body", "body_from_rig", "by_hand", "sigma_deg", "sigma_m", "range_m",
+                              "range_sigma_m", "ambiguous", "alternative"}) {
       json[field] = nullptr;
     }
   }

@@ -5,11 +5,13 @@ namespace omma {
 
 int bench_acquire(int argc, char** argv);
 int bench_attitude(int argc, char** argv);
+int bench_blink(int argc, char** argv);
 int bench_blocked(int argc, char** argv);
 int bench_extract(int argc, char** argv);
 int bench_extract_frames(const char* folder, int argc, char** argv);  // omma-bench extract --frames
 int bench_filter(int argc, char** argv);
 int bench_identify(int argc, char** argv);
+int bench_integrity(int argc, char** argv);
 int bench_lens(int argc, char** argv);
 int bench_jitter(int argc, char** argv);
 int bench_photographs(int argc, char** argv);

@@ -167,7 +167,9 @@ RigProblem make_rig_problem(const RigProblemOptions& options, std::uint64_t seed
     problem.sights.push_back(isotropic_sight(camera.centre, camera.rotation * seen.bearing, sigma,
                                              problem.targets[static_cast<std::size_t>(seen.target)]));
     problem.camera.push_back(static_cast<std::uint8_t>(seen.camera));
+    problem.entry.push_back(static_cast<std::uint16_t>(seen.target));
   }
+  for (const Camera& camera : cameras) problem.axes.emplace_back(camera.rotation.col(2));
   return problem;
 }
 

@@ -33,6 +33,8 @@ struct RigProblemOptions {
 struct RigProblem {
   std::vector<Sight> sights;
   std::vector<std::uint8_t> camera;      ///< of each sight
+  std::vector<std::uint16_t> entry;      ///< of each sight: index of its target in `targets`
+  std::vector<Eigen::Vector3d> axes;     ///< of each camera, rig frame
   std::vector<std::uint8_t> is_outlier;  ///< of each sight: truth, for scoring only
   std::vector<Eigen::Vector3d> targets;  ///< body frame [m]
   Pose truth;                            ///< rig_from_body

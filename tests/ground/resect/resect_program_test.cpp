@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "components/catalogue/target_file.hpp"
 #include "components/geometry/pose.hpp"
+#include "components/geometry/rig_file.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/ground/run_omma.hpp"
 #include "tests/paths.hpp"
@@ -63,6 +65,56 @@ class RenderedCard : public ::testing::Test {
   static inline std::unique_ptr<OperatorsFolder> folder_;
   static inline std::vector<Pose> truth_;
 };
+
+TEST_F(RenderedCard, IsFoundFromPairsPickedByHand) {
+  const std::string images =
+      "resect hdr1=" + image("hdr1", 3) + " cam0=" + image("cam0", 3) + rig() + targets();
+  const Told pattern = folder_->omma(images + " --json");
+  ASSERT_EQ(pattern.exit_code, 0) << pattern.err;
+  // Where the card is in hdr1, within two pixels, and one target that is elsewhere.
+  const Rig read = read_rig_file(kConfig + "rigs/dissertation.toml");
+  const TargetBody body = read_target_file(kConfig + "targets/docking_card.tsv");
+  std::string pairs = "# camera u v target\n";
+  for (const std::size_t t : {0U, 4U, 10U, 14U, 20U, 24U}) {
+    Eigen::Vector2d pixel;
+    ASSERT_TRUE(read.cameras[0].lens.project((truth_[3] * body.targets[t].position).normalized(), pixel));
+    const double off = t == 10 ? 40 : t % 3 - 1.0;
+    pairs += "hdr1 " + std::to_string(pixel.x() + off) + " " + std::to_string(pixel.y() - off) + " " +
+             std::string(body.targets[t].id.view()) + "\n";
+  }
+  folder_->write("pairs.txt", pairs);
+  const Told by_hand = folder_->omma(images + " --pairs pairs.txt --json");
+  ASSERT_EQ(by_hand.exit_code, 0) << by_hand.out << by_hand.err;
+  const json object = json::parse(by_hand.out);
+  EXPECT_TRUE(object.at("by_hand").get<bool>());
+  EXPECT_EQ(object.at("targets_used"), json::parse(pattern.out).at("targets_used"));
+  const Pose found = pose_of(object.at("rig_from_body"));
+  const Pose expected = pose_of(json::parse(pattern.out).at("rig_from_body"));
+  EXPECT_LT((found.translation - expected.translation).norm(), 2e-5);
+  EXPECT_LT((pose_of(object.at("body_from_rig")).translation - found.inverse().translation).norm(), 1e-9);
+}
+
+TEST_F(RenderedCard, PairsThatMakeNoSenseAreRefusedByTheirLine) {
+  const std::string images = "resect hdr1=" + image("hdr1", 3) + rig() + targets() + " --pairs pairs.txt";
+  const auto refused = [&](const std::string& pairs, const std::string& sentence) {
+    folder_->write("pairs.txt", pairs);
+    const Told told = folder_->omma(images);
+    EXPECT_EQ(told.exit_code, 2) << pairs;
+    EXPECT_THAT(told.err, HasSubstr(sentence)) << pairs;
+    EXPECT_EQ(told.out, "");
+  };
+  refused("hdr1 10 10\n", "pairs.txt:1: pair: expected CAMERA u v TARGET, found 3 words");
+  refused("\nhdr9 10 10 T01\n", "pairs.txt:2: camera: expected a camera of the rig, found \"hdr9\"");
+  refused("hdr1 ten 10 T01\n", "pairs.txt:1: u: expected a pixel of the image");
+  refused("hdr1 10 5000 T01\n", "pairs.txt:1: v: expected a pixel of the image");
+  refused("hdr1 10 10 T99\n", "pairs.txt:1: target: expected a target of the database, found \"T99\"");
+  refused("hdr1 10 10 T01\nhdr1 20 20 T01\n", "pairs.txt:2: target: expected each target once an image");
+  refused("hdr1 10 10 T01\n", "pairs: expected at least four, found 1");
+  const Told missing =
+      folder_->omma("resect hdr1=" + image("hdr1", 3) + rig() + targets() + " --pairs none.txt");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("none.txt"));
+}
 
 TEST_F(RenderedCard, IsFoundByItsPatternWithinItsUncertainty) {
   double squares = 0;

@@ -1,0 +1,40 @@
+// Chances of normal errors against tabulated values.
+#include "components/estimation/chance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace omma {
+namespace {
+
+TEST(Chance, ChiSquareTailMeetsTables) {
+  // Abramowitz & Stegun, table 26.8; NIST e-Handbook 1.3.6.7.4.
+  EXPECT_NEAR(chi_square_tail(3.841, 1), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(5.991, 2), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(7.815, 3), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(16.266, 3), 0.001, 1e-5);
+  EXPECT_NEAR(chi_square_tail(67.505, 50), 0.05, 1e-4);
+  EXPECT_NEAR(chi_square_tail(149.449, 100), 0.001, 1e-5);
+}
+
+TEST(Chance, ChiSquareTailOfManyDegreesNeitherOverflowsNorVanishes) {
+  EXPECT_NEAR(chi_square_tail(1533, 1533), 0.4952, 1e-3);  // median is about ν − 2/3
+  EXPECT_NEAR(chi_square_tail(100, 1533), 1.0, 1e-12);
+  EXPECT_LT(chi_square_tail(5000, 1533), 1e-100);
+  EXPECT_EQ(chi_square_tail(10, 0), 1.0);
+  EXPECT_EQ(chi_square_tail(std::numeric_limits<double>::quiet_NaN(), 4), 0.0);
+  EXPECT_EQ(chi_square_tail(-1, 4), 1.0);
+}
+
+TEST(Chance, TwoSidedSigmasInvertTheNormalTail) {
+  EXPECT_NEAR(two_sided_sigmas(0.317310508), 1.0, 1e-7);
+  EXPECT_NEAR(two_sided_sigmas(0.05), 1.959963985, 1e-8);
+  EXPECT_NEAR(two_sided_sigmas(1e-7), 5.326723886, 1e-6);
+  EXPECT_EQ(two_sided_sigmas(2), 0.0);
+  EXPECT_TRUE(std::isfinite(two_sided_sigmas(0)));
+}
+
+}  // namespace
+}  // namespace omma

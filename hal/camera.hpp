@@ -12,11 +12,12 @@
 namespace omma {
 
 enum class FrameStatus : std::uint8_t {
-  kMissing,    ///< no frame came for this trigger
-  kFresh,      ///< the frame of this trigger
-  kLate,       ///< a frame came, but it belongs to an earlier trigger
-  kStuck,      ///< the driver delivers, but always the same frame
-  kSaturated,  ///< the frame of this trigger, too bright to use
+  kMissing,     ///< no frame came for this trigger
+  kFresh,       ///< the frame of this trigger
+  kLate,        ///< a frame came, but it belongs to an earlier trigger
+  kStuck,       ///< the driver delivers, but always the same frame
+  kSaturated,   ///< the frame of this trigger, too bright to use
+  kMismatched,  ///< a frame of a trigger not yet sent, or one that was not exposed at its trigger
 };
 
 /// What can be set on a camera while it runs.

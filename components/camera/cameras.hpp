@@ -30,6 +30,8 @@ class Cameras final : public Component {
   bool at_end() const noexcept;
 
  private:
+  FrameStatus judge(const Frame& frame, std::size_t camera) noexcept;
+
   static constexpr int kStuckAfter = 3;  // identical frame numbers in a row before a camera counts as stuck
 
   void tell(const Tick& tick, std::size_t camera) noexcept;
@@ -39,6 +41,8 @@ class Cameras final : public Component {
   std::array<CameraHealth, limits::kCameras> told_{};
   std::array<std::uint64_t, limits::kCameras> last_number_{};
   std::array<int, limits::kCameras> repeats_{};
+  TimeNs last_trigger_ns_ = 0;
+  TimeNs since_last_trigger_ns_ = 0;  // 0 at the first
 };
 
 }  // namespace omma

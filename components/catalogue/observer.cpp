@@ -1,6 +1,7 @@
 #include "components/catalogue/observer.hpp"
 
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -77,7 +78,16 @@ double julian_date(int year, int month, double day) noexcept {
   return std::floor(365.25 * (year + 4716)) + std::floor(30.6001 * (month + 1)) + day + gregorian - 1524.5;
 }
 
-double parse_utc(std::string_view text) {
+namespace {
+
+struct UtcDate {
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  double seconds = 0;  // of the day
+};
+
+UtcDate parse_utc_date(std::string_view text) {
   std::string_view rest = text;
   int year = 0;
   int month = 0;
@@ -93,7 +103,23 @@ double parse_utc(std::string_view text) {
   if ((take(rest, 'T') || take(rest, ' ')) && !take_time(rest, seconds)) refuse_epoch(text);
   take(rest, 'Z');
   if (!rest.empty()) refuse_epoch(text);
-  return julian_date(year, month, day + seconds / 86400.0);
+  return {year, month, day, seconds};
+}
+
+}  // namespace
+
+double parse_utc(std::string_view text) {
+  const UtcDate date = parse_utc_date(text);
+  return julian_date(date.year, date.month, date.day + date.seconds / 86400.0);
+}
+
+std::int64_t parse_utc_ns(std::string_view text) {
+  const UtcDate date = parse_utc_date(text);
+  const std::chrono::sys_days day = std::chrono::year(date.year) / date.month / date.day;
+  constexpr std::int64_t kMicrosecondsPerDay = 86'400'000'000;
+  const std::int64_t microseconds =
+      day.time_since_epoch().count() * kMicrosecondsPerDay + std::llround(date.seconds * 1e6);
+  return microseconds * 1000;
 }
 
 GroundSite parse_ground_site(std::string_view text) {

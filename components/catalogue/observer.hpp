@@ -32,6 +32,8 @@ double julian_date(int year, int month, double day) noexcept;
 /// time of day and the Z. @return Julian date, UTC @throws InputError (file and line of the text are not
 /// known: the field says "epoch")
 double parse_utc(std::string_view text);
+/// The same text. @return nanoseconds since 1970-01-01 UTC, leap seconds not counted; to the microsecond
+std::int64_t parse_utc_ns(std::string_view text);
 
 /// Reads "LAT,LON,HEIGHT" or "LAT,LON": degrees, north and east positive, metres. @throws InputError
 GroundSite parse_ground_site(std::string_view text);

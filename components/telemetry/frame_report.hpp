@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "components/telemetry/frame_stages.hpp"
 #include "components/telemetry/topics.hpp"
 #include "config/limits.hpp"
 #include "fsw/kernel/fixed_string.hpp"
@@ -40,9 +41,9 @@ class FrameReport {
     const void* sample = nullptr;
     EventSample* event = nullptr;
   };
-  static constexpr std::size_t kEntries =
-      1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + kEvents + 2;  // as the members below
-  StaticVector<Entry, kEntries> entries;                                   ///< in the order they are sent
+  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + kEvents +
+                                          3;  // as the members below, but frame_timing
+  StaticVector<Entry, kEntries> entries;      ///< in the order they are sent
 
   omma_FrameSet frame_set{};
   std::array<omma_CameraDots, limits::kCameras> dots{};
@@ -52,6 +53,13 @@ class FrameReport {
   std::array<EventSample, kEvents> events{};
   omma_Health health{};
   omma_Timing timing{};
+  omma_UtcCorrelation utc{};
+
+  // Completed and sent last by the telemetry thread, where the frame set's way ends.
+  bool has_stages = false;
+  PerStage<> stages_done{};    // on-board time of each but the last
+  TimeNs on_board_offset = 0;  // from the stopwatch's time to on-board time
+  omma_FrameTiming frame_timing{};
 
  private:
   std::vector<omma_Dot> dot_storage_;
@@ -59,6 +67,7 @@ class FrameReport {
   std::array<omma_CameraStatus, limits::kCameras> cameras_{};
   std::array<omma_GroupHealth, limits::kRateGroups> groups_{};
   std::array<omma_StepTiming, limits::kComponents> steps_{};
+  std::array<omma_StageTiming, kFrameStages> stages_{};
 };
 
 }  // namespace omma::telemetry

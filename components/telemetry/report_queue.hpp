@@ -35,6 +35,7 @@ class ReportQueue {
       return nullptr;
     }
     reports_[held_]->entries.clear();
+    reports_[held_]->has_stages = false;
     return reports_[held_].get();
   }
   /// Writer: hands over the report that `begin` gave.

@@ -14,6 +14,11 @@ static_assert(omma_FRAME_FRESH == static_cast<int>(FrameStatus::kFresh));
 static_assert(omma_FRAME_LATE == static_cast<int>(FrameStatus::kLate));
 static_assert(omma_FRAME_STUCK == static_cast<int>(FrameStatus::kStuck));
 static_assert(omma_FRAME_SATURATED == static_cast<int>(FrameStatus::kSaturated));
+static_assert(omma_FRAME_MISMATCHED == static_cast<int>(FrameStatus::kMismatched));
+static_assert(omma_UTC_NONE == static_cast<int>(UtcSource::kNone));
+static_assert(omma_UTC_MISSION_EPOCH == static_cast<int>(UtcSource::kMissionEpoch));
+static_assert(omma_UTC_SYSTEM_CLOCK == static_cast<int>(UtcSource::kSystemClock));
+static_assert(omma_UTC_DISCIPLINED_CLOCK == static_cast<int>(UtcSource::kDisciplinedClock));
 static_assert(omma_TRACK_LOST == static_cast<int>(TrackState::kLost));
 static_assert(omma_TRACK_ACQUIRED == static_cast<int>(TrackState::kAcquired));
 static_assert(omma_TRACK_TRACKING == static_cast<int>(TrackState::kTracking));
@@ -103,6 +108,7 @@ void fill(const Frames& frames, const DotLists& dots, const Pairings& pairings, 
     status.state = same<omma_FrameState>(has_frame ? frames.cameras[c].status : FrameStatus::kMissing);
     status.image_number = has_frame ? frames.cameras[c].number : 0;
     status.exposure_midpoint_ns = has_frame ? frames.cameras[c].exposure_midpoint_ns : 0;
+    status.images_rejected = has_frame ? frames.rejected[c] : 0;
     status.dots_kept = static_cast<std::uint32_t>(list.dots.size());
     status.dots_found = status.dots_kept + list.dropped;
     status.stars_paired = star_count(pairings, c);
@@ -235,6 +241,14 @@ void fill(const TimingReport& timing, omma_Timing& out) noexcept {
     to.budget_ns = step.budget_ns;
     to.over_budget = step.over_budget;
   }
+}
+
+void fill(const UtcReport& utc, omma_UtcCorrelation& out) noexcept {
+  out.time_ns = utc.time_ns;
+  out.valid = utc.valid;
+  out.source = same<omma_UtcSource>(utc.source);
+  out.utc_ns = utc.utc_ns;
+  out.uncertainty_ns = utc.uncertainty_ns;
 }
 
 void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {

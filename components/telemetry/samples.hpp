@@ -15,6 +15,7 @@
 #include "components/telemetry/omma.h"
 #include "components/tracker/pairings.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/utc_correlation.hpp"
 
 namespace omma::telemetry {
 
@@ -47,6 +48,7 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
 void fill(const HealthReport& health, omma_Health& out) noexcept;
 /// @param out  `steps` holds room for limits::kComponents
 void fill(const TimingReport& timing, omma_Timing& out) noexcept;
+void fill(const UtcReport& utc, omma_UtcCorrelation& out) noexcept;
 /// @param out  `pixels` holds room for limits::kImageChunkBytes
 void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept;
 

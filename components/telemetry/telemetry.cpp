@@ -23,6 +23,7 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("image", image);
   visitor.input("health", health);
   visitor.input("timing", timing);
+  visitor.input("utc", utc);
 }
 
 void Telemetry::step(const Tick& /*tick*/) noexcept {
@@ -36,6 +37,7 @@ void Telemetry::step(const Tick& /*tick*/) noexcept {
   add_dots(*report);
   add_products(*report);
   add_housekeeping(*report);
+  add_stages(*report);
   add_events(*report);
   reports_.send();
 }
@@ -106,6 +108,27 @@ void Telemetry::add_housekeeping(Report& report) noexcept {
     report.timing.frame = frame_;
     add(report, report.timing, numbers_[static_cast<std::size_t>(TopicId::kTiming)]);
   }
+  if (utc->source != UtcSource::kNone && (!has_utc_ || utc->time_ns != utc_time_ns_)) {
+    has_utc_ = true;
+    utc_time_ns_ = utc->time_ns;
+    telemetry::fill(*utc, report.utc);
+    report.utc.frame = frame_;
+    add(report, report.utc, numbers_[static_cast<std::size_t>(TopicId::kUtc)]);
+  }
+}
+
+void Telemetry::add_stages(Report& report) noexcept {
+  if (stages_ == nullptr) return;
+  using telemetry::FrameStage;
+  report.has_stages = true;
+  report.on_board_offset = stages_->on_board_offset();
+  report.stages_done = stages_->done();
+  report.stages_done[static_cast<std::size_t>(FrameStage::kTrigger)] = frames->trigger_time_ns;
+  report.stages_done[static_cast<std::size_t>(FrameStage::kExposure)] = dots->time_ns;
+  report.frame_timing.frame = frame_;
+  report.frame_timing.time_ns = dots->time_ns;
+  report.frame_timing.valid = true;
+  report.frame_timing.sample_number = ++numbers_[static_cast<std::size_t>(TopicId::kFrameTiming)];
 }
 
 void Telemetry::add_events(Report& report) noexcept {
@@ -118,6 +141,7 @@ void Telemetry::add_events(Report& report) noexcept {
     event.sample.valid = true;
     event.sample.id = record.id;
     event.sample.severity = static_cast<omma_EventSeverity>(record.severity);
+    event.sample.runs_ago = 0;
     event.sample.held_back = record.held_back;
     event.sample.values._length = record.value_count;
     report.entries.push_back({TopicId::kEvent, &event.sample, &event});
@@ -129,6 +153,7 @@ void Telemetry::add_events(Report& report) noexcept {
 void Telemetry::count_dropped() noexcept {
   ++numbers_[static_cast<std::size_t>(TopicId::kFrameSet)];
   ++numbers_[static_cast<std::size_t>(TopicId::kAttitude)];
+  if (stages_ != nullptr) ++numbers_[static_cast<std::size_t>(TopicId::kFrameTiming)];
   if (image->valid) ++numbers_[static_cast<std::size_t>(TopicId::kImageChunk)];
   const std::size_t count = std::min(names_.cameras.size(), dots->cameras.size());
   for (std::size_t c = 0; c < count; ++c) ++dots_numbers_[c];

@@ -31,6 +31,7 @@
 #include "fsw/kernel/port.hpp"
 #include "fsw/services/events.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
 
@@ -47,10 +48,14 @@ class Telemetry final : public Component {
   In<ImageChunk> image;
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;
+  In<UtcReport> utc;
 
   std::string_view name() const override { return "telemetry"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+
+  /// The stamps of the frame set's way; made known before the run. Without, no frame_timing is sent.
+  void time_frames(const telemetry::FrameStages& stages) { stages_ = &stages; }
 
   /// After the scheduler has returned: sends a report of the events that came after the last frame set. False
   /// when none are left. (TelemetryOutput::stop does this.)
@@ -65,6 +70,7 @@ class Telemetry final : public Component {
   void add_dots(Report& report) noexcept;
   void add_products(Report& report) noexcept;
   void add_housekeeping(Report& report) noexcept;
+  void add_stages(Report& report) noexcept;
   void add_events(Report& report) noexcept;
   void count_dropped() noexcept;
   template <class Sample>
@@ -83,6 +89,9 @@ class Telemetry final : public Component {
   bool has_health_ = false;
   TimeNs timing_time_ns_ = 0;
   bool has_timing_ = false;
+  TimeNs utc_time_ns_ = 0;
+  bool has_utc_ = false;
+  const telemetry::FrameStages* stages_ = nullptr;
 };
 
 }  // namespace omma

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "components/telemetry/samples.hpp"
+#include "fsw/kernel/clock.hpp"
 #include "fsw/services/event_text.hpp"
 
 namespace omma {
@@ -25,7 +26,13 @@ TelemetryOutput::~TelemetryOutput() {
   if (thread_.joinable()) stop();
 }
 
+void TelemetryOutput::judge_latency(const telemetry::PerStage<>& budgets, Events* events) {
+  latency_ = std::make_unique<telemetry::FrameLatency>(budgets);
+  late_events_ = events;
+}
+
 void TelemetryOutput::start() {
+  if (latency_ == nullptr) judge_latency({}, nullptr);
   thread_ = std::thread([this] { serve(); });
 }
 
@@ -78,6 +85,7 @@ bool TelemetryOutput::write_one() {
   telemetry::FrameReport* report = reports_.front();
   if (report == nullptr) return false;
   for (const telemetry::FrameReport::Entry& entry : report->entries) write(entry);
+  if (report->has_stages) write_frame_timing(*report);
   reports_.release();
   std::uint64_t lost = 0;
   for (const auto& sink : sinks_) lost += sink->is_log() ? sink->lost() : 0;
@@ -89,6 +97,20 @@ void TelemetryOutput::write(const telemetry::FrameReport::Entry& entry) {
   if (entry.event != nullptr) set_texts(*entry.event);
   const std::span<const std::byte> cdr = cdr_.write(entry.topic, entry.sample);
   for (const auto& sink : sinks_) sink->write(entry.topic, entry.sample, cdr);
+}
+
+void TelemetryOutput::write_frame_timing(telemetry::FrameReport& report) {
+  using telemetry::FrameStage;
+  report.stages_done[static_cast<std::size_t>(FrameStage::kPublished)] =
+      MonotonicClock().now() + report.on_board_offset;
+  const FrameStage late = latency_->add(report.stages_done, report.frame_timing);
+  write({telemetry::TopicId::kFrameTiming, &report.frame_timing, nullptr});
+  if (late == FrameStage::kTrigger || late_events_ == nullptr) return;
+  const auto stage = static_cast<std::size_t>(late);
+  const TimeNs latency = elapsed(report.stages_done[0], report.stages_done[stage]);
+  late_events_->raise<telemetry::kFrameLate>(
+      Tick{report.frame_timing.frame, report.stages_done[stage]}, report.frame_timing.frame, stage,
+      static_cast<double>(latency) * 1e-6, static_cast<double>(latency_->budget(late)) * 1e-6);
 }
 
 void TelemetryOutput::set_texts(telemetry::EventSample& event) const {

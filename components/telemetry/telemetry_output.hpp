@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "components/telemetry/cdr.hpp"
+#include "components/telemetry/frame_latency.hpp"
 #include "components/telemetry/sink.hpp"
 #include "components/telemetry/telemetry.hpp"
 
@@ -26,6 +27,9 @@ class TelemetryOutput {
 
   /// Before `start`.
   void add(std::unique_ptr<telemetry::Sink> sink) { sinks_.push_back(std::move(sink)); }
+  /// Before `start`: what each frame set's way is measured against.
+  /// @param events  told of frame sets beyond their budgets; null in a replay, which must not depend on them
+  void judge_latency(const telemetry::PerStage<>& budgets, Events* events);
   void start();
 
   /// Lockstep, between two ticks, on the scheduler's thread: returns when the next step will find room.
@@ -42,6 +46,7 @@ class TelemetryOutput {
   void serve();
   bool write_one();
   void write(const telemetry::FrameReport::Entry& entry);
+  void write_frame_timing(telemetry::FrameReport& report);
   void set_texts(telemetry::EventSample& event) const;
 
   Telemetry& telemetry_;
@@ -49,6 +54,8 @@ class TelemetryOutput {
   const std::vector<EventDescriptor> events_;
   std::vector<std::unique_ptr<telemetry::Sink>> sinks_;
   telemetry::CdrWriter cdr_;
+  std::unique_ptr<telemetry::FrameLatency> latency_;
+  Events* late_events_ = nullptr;
 
   std::thread thread_;
   std::mutex mutex_;  // for sleeping and waking; the reports themselves are passed without it

@@ -20,10 +20,12 @@ enum class TopicId : std::uint8_t {
   kRelativePose,
   kHealth,
   kTiming,
+  kFrameTiming,
+  kUtc,
   kEvent,
   kImageChunk,
 };
-inline constexpr std::size_t kTopicCount = 8;
+inline constexpr std::size_t kTopicCount = 10;
 
 /// How a topic travels over DDS.
 enum class Delivery : std::uint8_t {
@@ -77,6 +79,14 @@ struct TopicOf<omma_Health> {
 template <>
 struct TopicOf<omma_Timing> {
   static constexpr TopicId id = TopicId::kTiming;
+};
+template <>
+struct TopicOf<omma_FrameTiming> {
+  static constexpr TopicId id = TopicId::kFrameTiming;
+};
+template <>
+struct TopicOf<omma_UtcCorrelation> {
+  static constexpr TopicId id = TopicId::kUtc;
 };
 template <>
 struct TopicOf<omma_Event> {

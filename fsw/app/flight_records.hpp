@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,8 @@ class FlightRecords {
   /// For who wants a trace now.
   TraceDump& trace() { return trace_; }
 
+  /// Before `start`: done by the same thread, again and again.
+  void add_chore(std::function<void()> chore) { chores_.add(std::move(chore)); }
   void start() { chores_.start(); }
   /// After the scheduler has returned: writes what is due, and the trace where a file was named.
   /// @return what could not be written, a sentence each

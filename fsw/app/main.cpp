@@ -91,14 +91,18 @@ int fly(const Arguments& arguments) {
   omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
   omma::ScheduleEvents schedule_events(topology.events);
   omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
-  omma::ScheduleObservers observers{&schedule_events, &records.recorder()};
+  omma::telemetry::FrameStages stages(table, topology.stage_ends(), clock.lockstep());
+  omma::ScheduleObservers observers{&schedule_events, &records.recorder(), &stages};
   omma::Scheduler scheduler(table, clock, observers);
   topology.health.observe(scheduler);
+  topology.telemetry.time_frames(stages);
   omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
+  output.judge_latency(topology.latency_budgets(), clock.lockstep() ? nullptr : &topology.events);
   add_sinks(arguments, mission, output);
   lockstep.before_each_tick([&output] { output.wait_for_room(); });
   if (real_time) say(omma::lock_process_memory());
   output.start();
+  records.add_chore([&topology] { topology.utc.ask_system(); });
   records.start();
 
   running = &scheduler;

@@ -129,6 +129,21 @@ AttitudeParameters read_attitude(const TomlTable& table, double frame_rate_hz) {
   return p;
 }
 
+telemetry::PerStage<double> read_latency(const TomlTable& table) {
+  telemetry::PerStage<double> latency_ms{};
+  double before = 0;
+  for (std::size_t s = 1; s < latency_ms.size(); ++s) {
+    const std::string key = std::string(telemetry::stage_name(static_cast<telemetry::FrameStage>(s))) + "_ms";
+    latency_ms[s] = table.number(key, {0, 1e6}, 0);
+    if (latency_ms[s] <= 0) continue;
+    if (latency_ms[s] < before)
+      throw table.error(key, "no less than the stage before it has", std::to_string(latency_ms[s]));
+    before = latency_ms[s];
+  }
+  table.refuse_unknown_keys();
+  return latency_ms;
+}
+
 // The spacecraft's name is a part of every topic's name.
 bool is_topic_part(const std::string& name) {
   const auto fits = [](char c) {
@@ -174,6 +189,7 @@ Mission read_mission(const std::filesystem::path& file) {
         static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
     imaging->refuse_unknown_keys();
   }
+  if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);
   mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));
   root.refuse_unknown_keys();
   return mission;

@@ -11,6 +11,7 @@
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/pose/relative_pose.hpp"
+#include "components/telemetry/frame_stages.hpp"
 #include "components/tracker/tracker_parameters.hpp"
 #include "hal/camera_setup.hpp"
 
@@ -40,6 +41,9 @@ struct Mission {
   RelativePoseParameters pose;
   int panorama_width = 1024;  ///< [px]; the height is half of it
   int panorama_period = 10;   ///< frame sets from one panorama to the next
+  /// Latest time after the trigger by which each stage is to be done [ms]; 0: as the schedule's budgets have
+  /// it.
+  telemetry::PerStage<double> latency_ms{};
   int dds_domain = 0;
 };
 

@@ -39,6 +39,11 @@ ImagingParameters imaging_parameters(const Mission& mission) {
   return parameters;
 }
 
+std::optional<UtcNs> epoch(const Mission& mission) {
+  if (mission.epoch_utc.empty()) return std::nullopt;
+  return parse_utc_ns(mission.epoch_utc);
+}
+
 telemetry::TelemetryNames telemetry_names(const Mission& mission) {
   telemetry::TelemetryNames names;
   for (const RigCamera& camera : mission.rig.cameras) names.cameras.push_back(camera.name);
@@ -61,9 +66,11 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       pose(mission_.pose),
       imaging(imaging_parameters(mission_), mission_.rig),
       telemetry(telemetry_names(mission_), events),
+      utc(options.lockstep ? UtcCorrelation::Kind::kReplay : UtcCorrelation::Kind::kLive, epoch(mission_)),
       health(events),
       health_to_telemetry_(health.report),
-      timing_to_telemetry_(health.timing) {
+      timing_to_telemetry_(health.timing),
+      utc_to_telemetry_(utc.report) {
   connect();
 }
 
@@ -86,6 +93,7 @@ void Topology::connect() {
   telemetry.image.bind(imaging.chunk);
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
+  telemetry.utc.bind(utc_to_telemetry_);
 }
 
 RateGroupTable Topology::table() {
@@ -105,7 +113,23 @@ RateGroupTable Topology::table() {
                      {.name = "health",
                       .divisor = beats_per_second(mission_.frame_rate_hz),
                       .priority = kHealthPriority,
-                      .components = {{health, microseconds(1000)}}}}};
+                      .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}}};
+}
+
+std::vector<telemetry::StageEnd> Topology::stage_ends() const {
+  using telemetry::FrameStage;
+  return {{&cameras, FrameStage::kFrame},
+          {&extractor, FrameStage::kDots},
+          {&tracker, FrameStage::kPairings},
+          {&attitude, FrameStage::kSolution},
+          {&pose, FrameStage::kSolution}};
+}
+
+telemetry::PerStage<> Topology::latency_budgets() {
+  telemetry::PerStage<> budgets = telemetry::stage_budgets(table(), stage_ends());
+  for (std::size_t s = 0; s < budgets.size(); ++s)
+    if (mission_.latency_ms[s] > 0) budgets[s] = std::llround(mission_.latency_ms[s] * 1e6);
+  return budgets;
 }
 
 }  // namespace omma

@@ -22,6 +22,7 @@
 #include "fsw/kernel/worker_pool.hpp"
 #include "fsw/services/events.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
 
@@ -36,6 +37,10 @@ class Topology {
 
   const Mission& mission() const { return mission_; }
   RateGroupTable table();
+  /// Which component ends which stage of a frame set's way.
+  std::vector<telemetry::StageEnd> stage_ends() const;
+  /// Latency budgets: as the mission declares them, or as they follow from the table's.
+  telemetry::PerStage<> latency_budgets();
   /// Real-time privileges that the threads sharing the extraction were not granted.
   const Refusals& refusals() const { return pool_.refusals(); }
   /// CameraDrivers::frame_sets
@@ -59,11 +64,13 @@ class Topology {
   RelativePose pose;
   Imaging imaging;
   Telemetry telemetry;
+  UtcCorrelation utc;
   Health health;
 
  private:
   Latest<HealthReport> health_to_telemetry_;  // from one rate group to the other
   Latest<TimingReport> timing_to_telemetry_;
+  Latest<UtcReport> utc_to_telemetry_;
 
   void connect();
 };

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "components/geometry/angles.hpp"
@@ -19,7 +21,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kArcseconds = 3600.0 * kDegrees;
 
 const char* name_of(omma_FrameState state) {
-  static constexpr const char* kNames[] = {"missing", "fresh", "late", "stuck", "saturated"};
+  static constexpr const char* kNames[] = {"missing", "fresh", "late", "stuck", "saturated", "mismatched"};
   return kNames[static_cast<std::size_t>(state)];
 }
 const char* name_of(omma_TrackState state) {
@@ -76,14 +78,14 @@ void add_cameras(Table& table, const omma_FrameSet& frame_set) {
                    static_cast<unsigned long long>(frame_set.frame),
                    static_cast<double>(frame_set.time_ns) * 1e-9, name_of(frame_set.sky_state),
                    frame_set.stars_paired, frame_set.targets_paired, frame_set.unclaimed_dots));
-  table.plain("camera       state       dots  found  stars  targets  background    noise");
+  table.plain("camera       state       dots  found  stars  targets  background    noise  rejected");
   for (std::uint32_t c = 0; c < frame_set.cameras._length; ++c) {
     const omma_CameraStatus& camera = frame_set.cameras._buffer[c];
-    table.add(
-        TopicId::kFrameSet, camera.state == omma_FRAME_FRESH ? LineStyle::kGood : LineStyle::kWarning,
-        format("%-12s %-10s %5u %6u %6u %8u %11.1f %8.2f", camera.name, name_of(camera.state),
-               camera.dots_kept, camera.dots_found, camera.stars_paired, camera.targets_paired,
-               static_cast<double>(camera.background_levels), static_cast<double>(camera.noise_levels)));
+    table.add(TopicId::kFrameSet, camera.state == omma_FRAME_FRESH ? LineStyle::kGood : LineStyle::kWarning,
+              format("%-12s %-10s %5u %6u %6u %8u %11.1f %8.2f %9llu", camera.name, name_of(camera.state),
+                     camera.dots_kept, camera.dots_found, camera.stars_paired, camera.targets_paired,
+                     static_cast<double>(camera.background_levels), static_cast<double>(camera.noise_levels),
+                     static_cast<unsigned long long>(camera.images_rejected)));
   }
 }
 
@@ -165,15 +167,49 @@ void add_timing(Table& table, const omma_Timing& timing) {
   }
 }
 
+void add_latency(Table& table, const omma_FrameTiming& timing) {
+  table.plain("stage             latency   mean ms    p99 ms    max ms  budget ms   over");
+  for (std::uint32_t i = 0; i < timing.stages._length; ++i) {
+    const omma_StageTiming& stage = timing.stages._buffer[i];
+    auto milliseconds = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
+    const bool late = stage.budget_ns > 0 && stage.latency_ns > stage.budget_ns;
+    table.add(TopicId::kFrameTiming, late ? LineStyle::kWarning : LineStyle::kPlain,
+              format("%-14s %10.3f %9.3f %9.3f %9.3f %10.1f %6llu%s", stage.name,
+                     milliseconds(stage.latency_ns), milliseconds(stage.mean_ns), milliseconds(stage.p99_ns),
+                     milliseconds(stage.max_ns), milliseconds(stage.budget_ns),
+                     static_cast<unsigned long long>(stage.over_budget), stage.reached ? "" : "   left out"));
+  }
+}
+
+void add_utc(Table& table, const omma_UtcCorrelation& utc) {
+  static constexpr const char* kSources[] = {"unknown", "the mission's epoch",
+                                             "the system's clock, kept by nothing",
+                                             "the system's clock, kept by NTP or PPS"};
+  const std::time_t seconds = utc.utc_ns / 1'000'000'000;
+  std::tm date{};
+  gmtime_r(&seconds, &date);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &date);
+  const std::string error = utc.uncertainty_ns < 0
+                                ? "error not known"
+                                : format("within %.6f s", static_cast<double>(utc.uncertainty_ns) * 1e-9);
+  table.add(TopicId::kUtc, utc.valid ? LineStyle::kPlain : LineStyle::kWarning,
+            format("UTC %s.%03dZ at on-board time %.3f s, %s (%s)", text.data(),
+                   static_cast<int>(utc.utc_ns / 1'000'000 % 1000), static_cast<double>(utc.time_ns) * 1e-9,
+                   error.c_str(), kSources[utc.source]));
+}
+
 void add_events(Table& table, const std::deque<EventLine>& events) {
   for (const EventLine& event : events) {
     const LineStyle style = event.severity == omma_EVENT_FAILURE   ? LineStyle::kBad
                             : event.severity == omma_EVENT_WARNING ? LineStyle::kWarning
                                                                    : LineStyle::kPlain;
     // An event stays true however old it is.
-    table.add(TopicId::kEvent, style,
-              format("%12.3f s  %-10s %s", static_cast<double>(event.time_ns) * 1e-9, name_of(event.severity),
-                     event.text.c_str()));
+    table.add(
+        TopicId::kEvent, style,
+        format("%12.3f s  %-10s %s%s", static_cast<double>(event.time_ns) * 1e-9, name_of(event.severity),
+               event.runs_ago > 0 ? format("(%u runs ago) ", event.runs_ago).c_str() : "",
+               event.text.c_str()));
   }
 }
 
@@ -196,6 +232,10 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
   if (samples.health() != nullptr) add_health(table, *samples.health());
   table.heading("TIMING", TopicId::kTiming);
   if (samples.timing() != nullptr) add_timing(table, *samples.timing());
+  table.heading("LATENCY", TopicId::kFrameTiming);
+  if (samples.frame_timing() != nullptr) add_latency(table, *samples.frame_timing());
+  table.heading("TIME", TopicId::kUtc);
+  if (samples.utc() != nullptr) add_utc(table, *samples.utc());
   table.heading("IMAGE", TopicId::kImageChunk);
   if (const omma_ImageChunk* chunk = samples.image_chunk())
     table.add(TopicId::kImageChunk, LineStyle::kPlain,

@@ -40,6 +40,12 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
     case TopicId::kTiming:
       sound = keep(timing_reader_, cdr, timing_);
       break;
+    case TopicId::kFrameTiming:
+      sound = keep(frame_timing_reader_, cdr, frame_timing_);
+      break;
+    case TopicId::kUtc:
+      sound = keep(utc_reader_, cdr, utc_);
+      break;
     case TopicId::kImageChunk:
       sound = keep(image_reader_, cdr, image_chunk_);
       break;
@@ -47,8 +53,8 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
       const omma_Event* event = nullptr;
       sound = keep(event_reader_, cdr, event);
       if (!sound) break;
-      events_.push_back(
-          {event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name});
+      events_.push_back({event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name,
+                         event->runs_ago});
       if (events_.size() > kEvents) events_.pop_front();
       break;
     }

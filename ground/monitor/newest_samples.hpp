@@ -20,6 +20,7 @@ struct EventLine {
   std::int64_t time_ns = 0;  ///< on board
   omma_EventSeverity severity = omma_EVENT_DIAGNOSTIC;
   std::string text;
+  std::uint32_t runs_ago = 0;  ///< 0: of this run
 };
 
 class NewestSamples {
@@ -34,6 +35,8 @@ class NewestSamples {
   const omma_Attitude* attitude() const { return attitude_; }
   const omma_Health* health() const { return health_; }
   const omma_Timing* timing() const { return timing_; }
+  const omma_FrameTiming* frame_timing() const { return frame_timing_; }
+  const omma_UtcCorrelation* utc() const { return utc_; }
   const omma_ImageChunk* image_chunk() const { return image_chunk_; }
   const std::map<int, omma_RelativePose>& poses() const { return poses_; }  ///< by body
   const std::deque<EventLine>& events() const { return events_; }           ///< oldest first
@@ -50,12 +53,16 @@ class NewestSamples {
   telemetry::CdrReader pose_reader_{telemetry::TopicId::kRelativePose};
   telemetry::CdrReader health_reader_{telemetry::TopicId::kHealth};
   telemetry::CdrReader timing_reader_{telemetry::TopicId::kTiming};
+  telemetry::CdrReader frame_timing_reader_{telemetry::TopicId::kFrameTiming};
+  telemetry::CdrReader utc_reader_{telemetry::TopicId::kUtc};
   telemetry::CdrReader event_reader_{telemetry::TopicId::kEvent};
   telemetry::CdrReader image_reader_{telemetry::TopicId::kImageChunk};
   const omma_FrameSet* frame_set_ = nullptr;
   const omma_Attitude* attitude_ = nullptr;
   const omma_Health* health_ = nullptr;
   const omma_Timing* timing_ = nullptr;
+  const omma_FrameTiming* frame_timing_ = nullptr;
+  const omma_UtcCorrelation* utc_ = nullptr;
   const omma_ImageChunk* image_chunk_ = nullptr;
   std::map<int, omma_RelativePose> poses_;
   std::deque<EventLine> events_;

@@ -30,6 +30,7 @@ class FrameSource final : public Component {
   Out<ImageChunk> image;
   Out<HealthReport> health;
   Out<TimingReport> timing;
+  Out<UtcReport> utc;
   std::string_view name() const override { return "frame"; }
   void visit_ports(PortVisitor& visitor) const override {
     visitor.output("frames", frames);
@@ -40,6 +41,7 @@ class FrameSource final : public Component {
     visitor.output("image", image);
     visitor.output("health", health);
     visitor.output("timing", timing);
+    visitor.output("utc", utc);
   }
   void step(const Tick& tick) noexcept override {
     frames->number = tick.number;
@@ -107,6 +109,7 @@ int bench_blocked(int argc, char** argv) {
   telemetry.image.bind(frame.image);
   telemetry.health.bind(frame.health);
   telemetry.timing.bind(frame.timing);
+  telemetry.utc.bind(frame.utc);
   TelemetryOutput output(telemetry, {});
   output.add(std::make_unique<BlockingSink>(phase));
   Lateness lateness(phase);

@@ -52,6 +52,7 @@ class VisionChain final : public Component {
   Out<ImageChunk> image;
   Out<HealthReport> health;
   Out<TimingReport> timing;
+  Out<UtcReport> utc;
   Events events;
 
   std::string_view name() const override { return "vision_chain"; }
@@ -64,6 +65,7 @@ class VisionChain final : public Component {
     visitor.output("image", image);
     visitor.output("health", health);
     visitor.output("timing", timing);
+    visitor.output("utc", utc);
   }
   void step(const Tick& tick) noexcept override {
     const std::uint64_t n = tick.number;
@@ -128,6 +130,7 @@ struct Flight {
     telemetry.image.bind(chain.image);
     telemetry.health.bind(chain.health);
     telemetry.timing.bind(chain.timing);
+    telemetry.utc.bind(chain.utc);
   }
   void step(std::uint64_t frame) {
     const Tick tick{frame, static_cast<TimeNs>(frame) * 100'000'000};

@@ -123,6 +123,15 @@ TEST_F(MissionFile, WithASpacecraftNameThatNoTopicCanHaveIsRefused) {
   }
 }
 
+TEST_F(MissionFile, LatencyBudgetsThatGoBackOrNameNoStageAreRefused) {
+  replace("demo.toml", "[[camera]]", "[latency]\nframe_ms = 30\ndots_ms = 20\n[[camera]]");
+  EXPECT_THAT(message(),
+              HasSubstr("latency.dots_ms: expected no less than the stage before it has, found 20"));
+  SetUp();
+  replace("demo.toml", "[[camera]]", "[latency]\nstars_ms = 30\n[[camera]]");
+  EXPECT_THAT(message(), HasSubstr("latency.stars_ms: expected "));
+}
+
 TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
   replace("demo.toml", "spacecraft = \"demo\"", "spacecraft = \"cubesat-1\"");
   const auto told = [&](const std::string& option) {

@@ -38,7 +38,7 @@ static_assert(sizeof(SharedFramesHeader) <= kFirstSlot && std::atomic<std::uint6
 
 int SharedFramesMemory::map(std::size_t size) noexcept {
   void* const memory = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-  if (memory == MAP_FAILED) return errno;
+  if (memory == MAP_FAILED) return errno != 0 ? errno : ENOMEM;
   size_ = size;
   header_ = static_cast<SharedFramesHeader*>(memory);
   return 0;
@@ -68,7 +68,7 @@ int SharedFramesMemory::open(const std::string& name) noexcept {
   if (file_ < 0 || ::fstat(file_, &about) != 0) return errno;
   if (!has_writer() || about.st_size < static_cast<off_t>(kFirstSlot)) return ESTALE;
   if (const int error = map(static_cast<std::size_t>(about.st_size)); error != 0) return error;
-  if (header_->magic.load(std::memory_order_acquire) != SharedFramesHeader::kMagic ||
+  if (header_ == nullptr || header_->magic.load(std::memory_order_acquire) != SharedFramesHeader::kMagic ||
       file_bytes(frame_bytes()) != size_)
     return ESTALE;
   return 0;

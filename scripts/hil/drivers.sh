@@ -5,7 +5,7 @@ set -uo pipefail
 OMMA=build/release/bin/omma
 FRAMES=${FRAMES:-1000}
 failed=0
-check() { if [ "$1" = 0 ]; then echo "PASS  $2"; else echo "FAIL  $2"; failed=1; fi; }
+check() { if [ "$1" = 0 ]; then echo "PASS  $2"; else echo "FAIL  $2"; echo "      status $1:"; tail -2 /tmp/said; failed=1; fi; }
 says() { grep -q -- "$1" /tmp/said; }  # what the last command said
 
 modprobe vivid n_devs=1 node_types=0x1 num_inputs=1 input_types=0 || exit 1
@@ -18,8 +18,9 @@ check $? "with its formats, controls and lines for a mission"
 
 for format in GREY Y10 Y12 Y16 BA81 GBRG GRBG RGGB BG10 GB10 BA10 RG10 YUYV UYVY RGB3 BGR3; do
   for memory in mmap dma-buf; do
-    timeout 60 $OMMA capture $CAM --format $format --memory $memory --size 160x90 --rate 30 --frames 5 > /tmp/said 2>&1
-    check $? "$format, $memory: 5 frames ($(grep -o 'at .* Hz' /tmp/said))"
+    timeout 60 $OMMA capture $CAM --format $format --memory $memory --size 320x180 --rate 30 --frames 5 > /tmp/said 2>&1
+    status=$?
+    check $status "$format, $memory: 5 frames ($(grep -o 'at .* Hz' /tmp/said))"
   done
 done
 

@@ -20,5 +20,5 @@ elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE armhf)
 endif()
 # The packages of the libraries it is linked with; scripts/package_depends.sh holds this list to the program.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libcfitsio10, libddsc0debian, libgcc-s1, libjpeg62-turbo, libspng0, libstdc++6, libtomlplusplus3, libyaml-cpp0.7, libzstd1")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libcfitsio10, libddsc0debian, liberfa1, libgcc-s1, libjpeg62-turbo, libspng0, libstdc++6, libtomlplusplus3, libyaml-cpp0.7, libzstd1")
 include(CPack)

@@ -12,9 +12,9 @@ namespace omma::ground {
 namespace {
 
 constexpr int kSmallestWidth = 1000;  // narrower images are enlarged
-constexpr std::array<Colour, 3> kMarkColours{
-    {{1, 1, 1, 0.75}, {0.30, 0.95, 0.45, 0.95}, {1.0, 0.32, 0.28, 0.95}}};
-constexpr std::array<const char*, 3> kMarkNames{"found", "paired", "culled"};
+constexpr std::array<Colour, 4> kMarkColours{
+    {{1, 1, 1, 0.75}, {0.30, 0.95, 0.45, 0.95}, {1.0, 0.32, 0.28, 0.95}, {1.0, 0.75, 0.25, 0.95}}};
+constexpr std::array<const char*, 4> kMarkNames{"found", "paired", "culled", "Moon, planets"};
 
 const Colour& colour_of(MarkKind kind) {
   return kMarkColours[static_cast<std::size_t>(kind)];
@@ -53,10 +53,11 @@ Legend legend_of(const Annotation& annotation, const Sizes& sizes) {
   Legend legend;
   if (!annotation.title.empty()) legend.lines.push_back(annotation.title);
   legend.lines.insert(legend.lines.end(), annotation.lines.begin(), annotation.lines.end());
-  std::array<std::size_t, 3> counts{};
+  std::array<std::size_t, kMarkNames.size()> counts{};
   for (const Mark& mark : annotation.marks) ++counts[static_cast<std::size_t>(mark.kind)];
   for (std::size_t i = 0; i < counts.size() && !annotation.marks.empty(); ++i) {
-    legend.keys.push_back(std::to_string(counts[i]) + " " + kMarkNames[i]);
+    const bool rare = i == static_cast<std::size_t>(MarkKind::kSolar);
+    legend.keys.push_back(rare && counts[i] == 0 ? "" : std::to_string(counts[i]) + " " + kMarkNames[i]);
   }
   const double rows = static_cast<double>(legend.lines.size()) + (legend.keys.empty() ? 0 : 1);
   if (rows > 0) legend.height = (1.45 * rows + 0.9) * sizes.text;
@@ -74,6 +75,7 @@ void draw_legend(Canvas& canvas, const Legend& legend, const Sizes& sizes) {
     cursor.y() += 1.45 * sizes.text;
   }
   for (std::size_t i = 0; i < legend.keys.size(); ++i) {
+    if (legend.keys[i].empty()) continue;
     const Eigen::Vector2d centre = cursor + Eigen::Vector2d(0.45, -0.36) * sizes.text;
     canvas.circle(centre, 0.42 * sizes.text, kMarkColours[i], sizes.line);
     cursor.x() += 1.3 * sizes.text;

@@ -18,6 +18,7 @@ enum class MarkKind {
   kFound,   ///< a dot nobody claims (white)
   kPaired,  ///< paired and used (green)
   kCulled,  ///< paired, then dropped for its residual (red)
+  kSolar,   ///< Sun, Moon or a planet (amber)
 };
 
 struct Mark {

@@ -10,13 +10,16 @@
 #include "ground/card/card.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
+#include "ground/composite/composite.hpp"
 #include "ground/design/design.hpp"
 #include "ground/design/predict.hpp"
 #include "ground/dots/dots.hpp"
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
 #include "ground/feed/feed.hpp"
+#include "ground/images/images.hpp"
 #include "ground/monitor/monitor.hpp"
+#include "ground/objects/objects.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
 #include "ground/resect/resect.hpp"
@@ -38,6 +41,9 @@ int main(int argc, char** argv) {
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
   omma::ground::add_feed(app, context);
+  omma::ground::add_composite(app, context);
+  omma::ground::add_images(app, context);
+  omma::ground::add_objects(app, context);
   omma::ground::add_calibrate(app, context);
   omma::ground::add_cameras(app, context);
   omma::ground::add_capture(app, context);

@@ -20,6 +20,17 @@ double standard_pressure(double height) noexcept {
   return 1013.25 * std::pow(standard_temperature(height) / 288.15, 5.25588);
 }
 
+/// Of a site from the centre of the Earth, on the WGS 84 ellipsoid. @param zenith, axis  unit vectors [m]
+Eigen::Vector3d site_position(const GroundSite& site, const Eigen::Vector3d& zenith,
+                              const Eigen::Vector3d& axis) noexcept {
+  constexpr double kRadius = 6378137.0;
+  constexpr double kSquaredEccentricity = 6.69437999014e-3;
+  const double s = std::sin(site.latitude);
+  const double curvature = kRadius / std::sqrt(1 - kSquaredEccentricity * s * s);
+  // The vertical meets the Earth's axis below the centre of the northern half's sites.
+  return (curvature + site.height) * zenith - curvature * kSquaredEccentricity * s * axis;
+}
+
 }  // namespace
 
 Eigen::Vector3d j2000_direction(const CatalogueStar& star) noexcept {
@@ -50,6 +61,7 @@ ApparentPlace::ApparentPlace(const Observer& observer) noexcept {
             Eigen::Vector3d(c * std::cos(sidereal), c * std::sin(sidereal), std::sin(site.latitude));
   const Eigen::Vector3d east = j2000_from_date * Eigen::Vector3d(-std::sin(sidereal), std::cos(sidereal), 0);
   velocity_over_c_ += east * (465.1 * c / kSpeedOfLight);  // turning of the Earth at the equator: 465.1 m/s
+  position_ = site_position(site, zenith_, j2000_from_date.col(2));
   refracts_ = true;
   temperature_ = site.temperature.value_or(standard_temperature(site.height));
   pressure_ = site.pressure.value_or(standard_pressure(site.height));
@@ -59,9 +71,14 @@ bool ApparentPlace::direction(const CatalogueStar& star, Eigen::Vector3d& direct
   const Eigen::Vector3d catalogued = j2000_direction(star);
   const Eigen::Vector3d east(-std::sin(star.right_ascension), std::cos(star.right_ascension), 0);
   const Eigen::Vector3d north = catalogued.cross(east);
-  // Motion along the great circle; then aberration to first order, whose neglected part is below 0.001".
+  // Motion along the great circle.
   direction =
       (catalogued + years_ * (double{star.pm_ra_cosdec} * east + double{star.pm_dec} * north)).normalized();
+  return observe(direction);
+}
+
+bool ApparentPlace::observe(Eigen::Vector3d& direction) const noexcept {
+  // Aberration to first order, whose neglected part is below 0.001".
   direction = (direction + velocity_over_c_).normalized();
   if (!refracts_) return true;
 

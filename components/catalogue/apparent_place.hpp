@@ -27,12 +27,20 @@ class ApparentPlace {
   /// @return false for a star below the horizon of the ground site (more than 1° before refraction)
   bool direction(const CatalogueStar& star, Eigen::Vector3d& direction) const noexcept;
 
+  /// The same for what is not a star: the unit vector along which it stands (light time allowed for) becomes
+  /// that along which it is seen: aberration and, from the ground, refraction.
+  /// @return false below the horizon of the ground site, as above
+  bool observe(Eigen::Vector3d& direction) const noexcept;
+
+  /// Of the ground site from the centre of the Earth, J2000 axes [m]; zero without one.
+  const Eigen::Vector3d& position() const { return position_; }
   /// Local vertical in J2000 axes; meaningful with a ground site only.
   const Eigen::Vector3d& zenith() const { return zenith_; }
 
  private:
   double years_ = 0;  // since J2000.0
   Eigen::Vector3d velocity_over_c_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   bool refracts_ = false;
   Eigen::Vector3d zenith_ = Eigen::Vector3d::UnitZ();
   double pressure_ = 0;     // [hPa]

@@ -14,7 +14,23 @@ namespace omma {
 enum class ImageKind : std::uint8_t {
   kPanoramaJ2000,  ///< equirectangular, fixed to the stars: column 0 is right ascension 360°, leftward grows
   kPanoramaRig,    ///< equirectangular, fixed to the rig: azimuth about +z from +x
-  kView,           ///< virtual pan-tilt camera
+  kView,           ///< virtual pan-tilt camera, fixed to the stars
+  kFisheyeJ2000,   ///< half the sky about a direction, equal-distance, fixed to the stars
+  kFisheyeRig,     ///< the same, fixed to the rig
+  kCamera,         ///< a part of one camera's image as it was taken
+};
+
+/// How a picture is made of several.
+enum class ImageComposite : std::uint8_t {
+  kSingle,
+  kMean,       ///< less noise; several exposures become one of high range
+  kDarkest,    ///< what stays: passing lights, glare and hits are gone
+  kBrightest,  ///< what passed: trails
+};
+
+enum class ImageEncoding : std::uint8_t {
+  kGrey,           ///< rows × width bytes
+  kPredictedZstd,  ///< image_coder.hpp
 };
 
 struct ImageChunk {
@@ -22,12 +38,20 @@ struct ImageChunk {
   TimeNs time_ns = 0;       ///< its exposure midpoint
   bool valid = false;       ///< false: no rows this time
   ImageKind kind = ImageKind::kPanoramaJ2000;
-  std::uint32_t image = 0;   ///< counts images; chunks with the same number belong together
-  std::uint16_t width = 0;   ///< of the whole image [px]
-  std::uint16_t height = 0;  ///< of the whole image [px]
+  ImageComposite composite = ImageComposite::kSingle;
+  std::uint16_t composed = 1;  ///< pictures of a composite
+  std::uint8_t camera = 0;     ///< of kCamera: index in the rig
+  std::uint32_t image = 0;     ///< counts images; chunks with the same number belong together
+  std::uint16_t width = 0;     ///< of the whole image [px]
+  std::uint16_t height = 0;    ///< of the whole image [px]
+  std::uint16_t left = 0;      ///< of kCamera: the camera's pixel at the top left [px]
+  std::uint16_t top = 0;
   std::uint16_t first_row = 0;
-  std::uint16_t rows = 0;  ///< rows × width bytes of `pixels` are in use
-  std::array<std::uint8_t, limits::kImageChunkBytes> pixels{};  ///< grey, row after row, top row first
+  std::uint16_t rows = 0;
+  ImageEncoding encoding = ImageEncoding::kGrey;
+  std::uint16_t bytes = 0;  ///< of `pixels` in use
+  std::array<std::uint8_t, limits::kImageChunkBytes>
+      pixels{};  ///< grey, row after row, top row first; as encoded
 };
 
 }  // namespace omma

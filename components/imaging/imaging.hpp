@@ -1,34 +1,49 @@
-// Imaging: frames and attitude → the whole sky (or a virtual view) as picture rows for telemetry, one chunk
+// Imaging: frames and attitude → pictures of the whole sky (or of a part) as rows for telemetry, one chunk
 // per frame set. A picture takes as many frame sets as it has chunks; each chunk uses the frames and the
-// attitude of its own frame set, so that a picture fixed to the stars fits together while the rig turns.
+// attitude of its own frame set, so that a picture fixed to the stars fits together while the rig turns. A
+// composite runs through the picture several times before it is sent. Another picture can be asked for at any
+// time.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
 #include "components/extractor/dot_lists.hpp"
+#include "components/imaging/composite.hpp"
 #include "components/imaging/image_chunk.hpp"
-#include "components/imaging/panorama.hpp"
-#include "components/imaging/view.hpp"
+#include "components/imaging/image_coder.hpp"
+#include "components/imaging/picture.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/kernel/spsc_queue.hpp"
 
 namespace omma {
 
-struct ImagingParameters {
-  ImageKind kind = ImageKind::kPanoramaJ2000;
-  PanoramaSettings panorama;  ///< for the panoramas
-  ViewSettings view;          ///< for kView
-  double pan = 0;             ///< of the view: right ascension [rad]
-  double tilt = 0;            ///< of the view: declination [rad]
-  int period = 0;             ///< least number of frame sets from the start of a picture to the next
+struct ImagingParameters : PictureSettings {
+  ImageComposite composite = ImageComposite::kSingle;
+  int composed = 1;       ///< pictures of a composite, to 1000
+  int composed_rows = 8;  ///< rows a step while a composite is made
+  bool compress = false;  ///< rows without loss (image_coder.hpp): about twice as many in a chunk
+  int period = 0;         ///< least number of frame sets from the start of a picture to the next
   RayTableSettings table;
   Footprint footprint = Footprint::kPeak;
 };
 
+/// A picture asked for while flying: made once, after the one that is being made. Angles as PictureSettings.
+struct PictureRequest {
+  ImageKind kind = ImageKind::kView;  ///< not kCamera
+  double pan = 0;                     ///< [rad]
+  double tilt = 0;                    ///< [rad]
+  double field = 0;                   ///< of a view or fisheye [rad]; 0: the mission's
+};
+
 class Imaging final : public Component {
  public:
-  /// Allocates the look-up table. @throws std::invalid_argument as Mosaic, Panorama and View, and where one
-  /// row is longer than a chunk (limits::kImageChunkBytes)
+  /// Allocates the look-up table and the composite. @throws std::invalid_argument as Mosaic and Picture,
+  /// where one row is longer than a chunk (limits::kImageChunkBytes), and for a composite of less than one
+  /// picture
   Imaging(const ImagingParameters& parameters, const Rig& rig);
 
   In<Frames> frames;
@@ -43,22 +58,40 @@ class Imaging final : public Component {
   void degrade(int level) noexcept override;
   void skipped(const Tick& tick) noexcept override;
 
+  /// From one other thread, any time: false where four requests wait already. One that cannot be made (a row
+  /// longer than a chunk, a field too wide) is passed over and counted.
+  bool request(const PictureRequest& picture) noexcept { return requests_.push(picture); }
+  std::uint32_t refused_requests() const noexcept { return refused_; }
+
  private:
-  int width() const noexcept;
-  int height() const noexcept;
+  const Picture& picture() const noexcept { return asked_ ? requested_ : standing_; }
+  bool composing() const noexcept { return composite_.has_value() && !asked_; }
   void collect_images() noexcept;
   void start_picture() noexcept;
+  bool take_request() noexcept;
+  int make_rows(int first_row, int rows) noexcept;
+  void compose() noexcept;
+  void pack(int rows) noexcept;
+  void send_rows() noexcept;
+  void describe(ImageChunk& out) const noexcept;
 
   ImagingParameters parameters_;
   Mosaic mosaic_;
-  Panorama panorama_;
-  View view_;
+  Picture standing_;   // the mission's
+  Picture requested_;  // of the newest request
+  bool asked_ = false;
+  SpscQueue<PictureRequest, 4> requests_;
+  std::uint32_t refused_ = 0;
+  std::optional<Composite> composite_;
+  int pass_ = 0;  // of a composite; rows are sent after the last
+  std::optional<ImageCoder> coder_;
+  std::vector<std::uint8_t> rows_;  // of one step
   std::array<ImageView, limits::kCameras> images_{};
   OverlapSums sums_;
-  int full_rows_;  // that a chunk holds
-  int rows_per_step_;
+  int level_ = 0;  // of degradation
   int next_row_ = 0;
   int frame_sets_ = 0;  ///< since the picture was begun
+  bool between_ = true;
 };
 
 }  // namespace omma

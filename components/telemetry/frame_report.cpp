@@ -10,7 +10,8 @@ namespace {
 static_assert(limits::kCameras <= omma_MAX_CAMERAS && limits::kDotsPerCamera <= omma_MAX_DOTS &&
               limits::kNameLength <= omma_MAX_NAME && limits::kComponents <= omma_MAX_COMPONENTS &&
               limits::kRateGroups <= omma_MAX_GROUPS && limits::kEventValues <= omma_MAX_EVENT_VALUES &&
-              limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES && kFrameStages <= omma_MAX_STAGES);
+              limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES &&
+              limits::kUnknownObjects <= omma_MAX_OBJECTS && kFrameStages <= omma_MAX_STAGES);
 
 template <class Sequence, class Storage>
 void lead_to(Sequence& sequence, Storage* storage, std::size_t room) {
@@ -30,6 +31,7 @@ FrameReport::FrameReport(const TelemetryNames& names)
     lead_to(dots[c].dots, dot_storage_.data() + c * limits::kDotsPerCamera, limits::kDotsPerCamera);
   }
   lead_to(image_chunk.pixels, pixels_.data(), pixels_.size());
+  lead_to(objects.objects, objects_.data(), objects_.size());
   lead_to(health.groups, groups_.data(), groups_.size());
   lead_to(timing.steps, steps_.data(), steps_.size());
   lead_to(frame_timing.stages, stages_.data(), stages_.size());

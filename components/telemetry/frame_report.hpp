@@ -8,6 +8,7 @@
 #include "components/telemetry/frame_stages.hpp"
 #include "components/telemetry/topics.hpp"
 #include "config/limits.hpp"
+#include "config/sky_limits.hpp"
 #include "fsw/kernel/fixed_string.hpp"
 #include "fsw/kernel/static_vector.hpp"
 #include "fsw/services/event.hpp"
@@ -41,7 +42,7 @@ class FrameReport {
     const void* sample = nullptr;
     EventSample* event = nullptr;
   };
-  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + kEvents +
+  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + 1 + kEvents +
                                           3;  // as the members below, but frame_timing
   StaticVector<Entry, kEntries> entries;      ///< in the order they are sent
 
@@ -49,6 +50,7 @@ class FrameReport {
   std::array<omma_CameraDots, limits::kCameras> dots{};
   omma_Attitude attitude{};
   std::array<omma_RelativePose, limits::kTargetBodies> poses{};
+  omma_UnknownObjects objects{};
   omma_ImageChunk image_chunk{};
   std::array<EventSample, kEvents> events{};
   omma_Health health{};
@@ -65,6 +67,7 @@ class FrameReport {
   std::vector<omma_Dot> dot_storage_;
   std::vector<std::uint8_t> pixels_;
   std::array<omma_CameraStatus, limits::kCameras> cameras_{};
+  std::array<omma_UnknownObject, limits::kUnknownObjects> objects_{};
   std::array<omma_GroupHealth, limits::kRateGroups> groups_{};
   std::array<omma_StepTiming, limits::kComponents> steps_{};
   std::array<omma_StageTiming, kFrameStages> stages_{};

@@ -31,9 +31,20 @@ static_assert(omma_SOLVE_INCONSISTENT == static_cast<int>(SolveStatus::kInconsis
 static_assert(omma_HEALTH_OK == static_cast<int>(HealthState::kOk));
 static_assert(omma_HEALTH_DEGRADED == static_cast<int>(HealthState::kDegraded));
 static_assert(omma_HEALTH_FAILED == static_cast<int>(HealthState::kFailed));
+static_assert(omma_MOTION_UNDECIDED == static_cast<int>(ObjectMotion::kUndecided));
+static_assert(omma_MOTION_MOVING == static_cast<int>(ObjectMotion::kMoving));
+static_assert(omma_MOTION_WITH_THE_STARS == static_cast<int>(ObjectMotion::kWithTheStars));
+static_assert(omma_MOTION_WITH_THE_RIG == static_cast<int>(ObjectMotion::kWithTheRig));
 static_assert(omma_IMAGE_PANORAMA_J2000 == static_cast<int>(ImageKind::kPanoramaJ2000));
 static_assert(omma_IMAGE_PANORAMA_RIG == static_cast<int>(ImageKind::kPanoramaRig));
 static_assert(omma_IMAGE_VIEW == static_cast<int>(ImageKind::kView));
+static_assert(omma_IMAGE_FISHEYE_J2000 == static_cast<int>(ImageKind::kFisheyeJ2000));
+static_assert(omma_IMAGE_FISHEYE_RIG == static_cast<int>(ImageKind::kFisheyeRig));
+static_assert(omma_IMAGE_CAMERA == static_cast<int>(ImageKind::kCamera));
+static_assert(omma_COMPOSITE_MEAN == static_cast<int>(ImageComposite::kMean));
+static_assert(omma_COMPOSITE_DARKEST == static_cast<int>(ImageComposite::kDarkest));
+static_assert(omma_COMPOSITE_BRIGHTEST == static_cast<int>(ImageComposite::kBrightest));
+static_assert(omma_ENCODING_PREDICTED_ZSTD == static_cast<int>(ImageEncoding::kPredictedZstd));
 
 omma_Quaternion quaternion(const Eigen::Quaterniond& q) noexcept {
   return {q.x(), q.y(), q.z(), q.w()};
@@ -80,6 +91,17 @@ omma_Dot* dot_of(const Pairing& pair, std::span<omma_CameraDots> cameras) noexce
   if (pair.camera >= cameras.size()) return nullptr;
   omma_CameraDots& dots = cameras[pair.camera];
   return pair.dot < dots.dots._length ? &dots.dots._buffer[pair.dot] : nullptr;
+}
+
+/// What every claim of a dot says. @return null where the pair points at no dot
+omma_Dot* claimed_dot(const Pairing& pair, std::span<omma_CameraDots> cameras, omma_DotRole role) noexcept {
+  omma_Dot* dot = dot_of(pair, cameras);
+  if (dot == nullptr) return nullptr;
+  dot->role = role;
+  dot->entry = pair.entry;
+  dot->persistence = pair.persistence;
+  dot->age_s = 1e-9F * static_cast<float>(cameras[pair.camera].time_ns - pair.since_ns);
+  return dot;
 }
 
 // The whitener has no component along the ray, so the whitened direction is the whitened difference.
@@ -133,24 +155,41 @@ void claim(const SkyPairings& sky, const AttitudeEstimate& attitude,
   const Eigen::Matrix3d rig_from_j2000 = attitude.solution.rig_from_j2000.toRotationMatrix();
   for (std::size_t i = 0; i < sky.pairs.size(); ++i) {
     const Pairing& pair = sky.pairs[i];
-    omma_Dot* dot = dot_of(pair, cameras);
+    omma_Dot* dot = claimed_dot(pair, cameras, omma_DOT_STAR);
     if (dot == nullptr) continue;
-    dot->role = omma_DOT_STAR;
-    dot->entry = pair.entry;
     if (!attitude.valid) continue;
     dot->culled = i < attitude.used.size() && attitude.used[i] == 0;
     dot->residual_sigma = residual_sigma(pair.sight, rig_from_j2000 * pair.sight.point);
+  }
+  for (const Pairing& pair : sky.solar) {
+    omma_Dot* dot = claimed_dot(pair, cameras, omma_DOT_SOLAR_BODY);
+    if (dot != nullptr && attitude.valid)
+      dot->residual_sigma = residual_sigma(pair.sight, rig_from_j2000 * pair.sight.point);
+  }
+}
+
+void claim(const UnknownObjects& objects, std::span<omma_CameraDots> cameras) noexcept {
+  for (const UnknownObject& object : objects.objects) {
+    if (!object.bearing.seen) continue;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      if (object.bearing.dot[c] < 0) continue;
+      Pairing pair;
+      pair.camera = static_cast<std::uint8_t>(c);
+      pair.dot = static_cast<std::uint16_t>(object.bearing.dot[c]);
+      pair.entry = static_cast<std::uint16_t>(object.number);
+      pair.persistence = object.sightings;
+      pair.since_ns = object.first_seen_ns;
+      claimed_dot(pair, cameras, omma_DOT_OBJECT);
+    }
   }
 }
 
 void claim(const BodyPairings& body, const PoseEstimate* pose, std::span<omma_CameraDots> cameras) noexcept {
   for (std::size_t i = 0; i < body.pairs.size(); ++i) {
     const Pairing& pair = body.pairs[i];
-    omma_Dot* dot = dot_of(pair, cameras);
+    omma_Dot* dot = claimed_dot(pair, cameras, omma_DOT_TARGET);
     if (dot == nullptr) continue;
-    dot->role = omma_DOT_TARGET;
     dot->body = body.body;
-    dot->entry = pair.entry;
     if (pose == nullptr || !pose->valid) continue;
     dot->culled = i < pose->used.size() && pose->used[i] == 0;
     const Eigen::Vector3d from_camera = pose->solution.rig_from_body * pair.sight.point - pair.sight.origin;
@@ -208,6 +247,39 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
   out.alternative_chi2 = solution.alternative_chi2;
 }
 
+void fill(const UnknownObjects& objects, omma_UnknownObjects& out) noexcept {
+  out.frame = objects.frame;
+  out.time_ns = objects.time_ns;
+  out.valid = objects.valid;
+  out.leftover_dots = objects.leftover_dots;
+  out.candidates = objects.candidates;
+  out.not_followed = objects.not_followed;
+  out.objects._length = static_cast<std::uint32_t>(objects.objects.size());
+  for (std::size_t i = 0; i < objects.objects.size(); ++i) {
+    const UnknownObject& object = objects.objects[i];
+    omma_UnknownObject& to = out.objects._buffer[i];
+    to.number = object.number;
+    to.motion = same<omma_ObjectMotion>(object.motion);
+    to.seen = object.bearing.seen;
+    to.first_seen_ns = object.first_seen_ns;
+    to.last_seen_ns = object.last_seen_ns;
+    to.sightings = object.sightings;
+    to.missed = object.missed;
+    to.cameras = 0;
+    for (std::size_t c = 0; c < object.bearing.dot.size(); ++c)
+      if (object.bearing.seen && object.bearing.dot[c] >= 0) to.cameras |= static_cast<std::uint8_t>(1U << c);
+    to.flux_levels = object.bearing.flux;
+    to.snr = object.bearing.snr;
+    to.bearing = vector(object.bearing.direction);
+    put_matrix(object.bearing.covariance, to.covariance_bearing_rad2);
+    to.direction = vector(object.direction);
+    put_matrix(object.covariance, to.covariance_direction_rad2);
+    to.velocity_rad_s = vector(object.velocity);
+    put_matrix(object.velocity_covariance, to.covariance_velocity_rad2_s2);
+    to.score = static_cast<float>(object.score);
+  }
+}
+
 void fill(const HealthReport& health, omma_Health& out) noexcept {
   out.time_ns = health.time_ns;
   out.valid = health.valid;
@@ -256,12 +328,18 @@ void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {
   out.time_ns = chunk.time_ns;
   out.valid = chunk.valid;
   out.kind = same<omma_ImageKind>(chunk.kind);
+  out.composite = same<omma_ImageComposite>(chunk.composite);
+  out.composed = chunk.composed;
+  out.camera = chunk.camera;
   out.image = chunk.image;
   out.width_px = chunk.width;
   out.height_px = chunk.height;
+  out.left_px = chunk.left;
+  out.top_px = chunk.top;
   out.first_row = chunk.first_row;
   out.rows = chunk.rows;
-  const std::size_t bytes = std::min(chunk.pixels.size(), static_cast<std::size_t>(chunk.rows) * chunk.width);
+  out.encoding = same<omma_ImageEncoding>(chunk.encoding);
+  const std::size_t bytes = std::min<std::size_t>(chunk.pixels.size(), chunk.bytes);
   out.pixels._length = static_cast<std::uint32_t>(bytes);
   std::copy_n(chunk.pixels.begin(), bytes, out.pixels._buffer);
 }

@@ -12,6 +12,7 @@
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
 #include "components/pose/pose_estimate.hpp"
+#include "components/surveillance/unknown_objects.hpp"
 #include "components/telemetry/omma.h"
 #include "components/tracker/pairings.hpp"
 #include "fsw/services/health.hpp"
@@ -35,15 +36,20 @@ void fill(const Frames& frames, const DotLists& dots, const Pairings& pairings, 
 /// @param out  `dots` holds room for limits::kDotsPerCamera
 void fill(const DotLists& lists, std::size_t camera, omma_CameraDots& out) noexcept;
 
-/// Writes role, body, entry, culled and residual into the dots of all cameras (index in the rig) that a star
-/// claims.
+/// Writes role, body, entry, culled, residual, persistence and age into the dots of all cameras (index in the
+/// rig) that a star or a planet claims.
 void claim(const SkyPairings& sky, const AttitudeEstimate& attitude,
            std::span<omma_CameraDots> cameras) noexcept;
 /// The same for the targets of a body. @param pose  null where the body was not solved
 void claim(const BodyPairings& body, const PoseEstimate* pose, std::span<omma_CameraDots> cameras) noexcept;
 
+/// Names the dots in which an unknown object was seen.
+void claim(const UnknownObjects& objects, std::span<omma_CameraDots> cameras) noexcept;
+
 void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept;
 void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePose& out) noexcept;
+/// @param out  `objects` holds room for limits::kUnknownObjects
+void fill(const UnknownObjects& objects, omma_UnknownObjects& out) noexcept;
 /// @param out  `groups` holds room for limits::kRateGroups
 void fill(const HealthReport& health, omma_Health& out) noexcept;
 /// @param out  `steps` holds room for limits::kComponents

@@ -20,6 +20,7 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("pairings", pairings);
   visitor.input("attitude", attitude);
   visitor.input("poses", poses);
+  visitor.input("objects", objects);
   visitor.input("image", image);
   visitor.input("health", health);
   visitor.input("timing", timing);
@@ -75,6 +76,7 @@ void Telemetry::add_dots(Report& report) noexcept {
                                    [&](const PoseEstimate& estimate) { return estimate.body == body.body; });
     telemetry::claim(body, pose == poses->bodies.end() ? nullptr : pose, cameras);
   }
+  telemetry::claim(*objects, cameras);
 }
 
 void Telemetry::add_products(Report& report) noexcept {
@@ -86,6 +88,8 @@ void Telemetry::add_products(Report& report) noexcept {
     telemetry::fill(pose, names_.bodies[pose.body].view(), report.poses[b]);
     add(report, report.poses[b], pose_numbers_[pose.body]);
   }
+  telemetry::fill(*objects, report.objects);
+  add(report, report.objects, numbers_[static_cast<std::size_t>(TopicId::kUnknownObjects)]);
   if (!image->valid) return;
   telemetry::fill(*image, report.image_chunk);
   add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
@@ -154,6 +158,7 @@ void Telemetry::count_dropped() noexcept {
   ++numbers_[static_cast<std::size_t>(TopicId::kFrameSet)];
   ++numbers_[static_cast<std::size_t>(TopicId::kAttitude)];
   if (stages_ != nullptr) ++numbers_[static_cast<std::size_t>(TopicId::kFrameTiming)];
+  ++numbers_[static_cast<std::size_t>(TopicId::kUnknownObjects)];
   if (image->valid) ++numbers_[static_cast<std::size_t>(TopicId::kImageChunk)];
   const std::size_t count = std::min(names_.cameras.size(), dots->cameras.size());
   for (std::size_t c = 0; c < count; ++c) ++dots_numbers_[c];

@@ -25,6 +25,7 @@
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
 #include "components/pose/pose_estimate.hpp"
+#include "components/surveillance/unknown_objects.hpp"
 #include "components/telemetry/report_queue.hpp"
 #include "components/tracker/pairings.hpp"
 #include "fsw/kernel/component.hpp"
@@ -45,6 +46,7 @@ class Telemetry final : public Component {
   In<Pairings> pairings;
   In<AttitudeEstimate> attitude;
   In<PoseEstimates> poses;
+  In<UnknownObjects> objects;
   In<ImageChunk> image;
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;

@@ -11,6 +11,8 @@ const std::array<Topic, kTopicCount>& topics() noexcept {
        false},
       {TopicId::kRelativePose, "relative_pose", "omma::RelativePose", &omma_RelativePose_desc,
        Delivery::kStream, 1, 2000, false},
+      {TopicId::kUnknownObjects, "unknown_objects", "omma::UnknownObjects", &omma_UnknownObjects_desc,
+       Delivery::kStream, 1, 2000, false},
       {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, 3000, false},
       {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, 3000, true},
       {TopicId::kFrameTiming, "frame_timing", "omma::FrameTiming", &omma_FrameTiming_desc, Delivery::kStream,

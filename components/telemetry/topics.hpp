@@ -18,6 +18,7 @@ enum class TopicId : std::uint8_t {
   kDots,
   kAttitude,
   kRelativePose,
+  kUnknownObjects,
   kHealth,
   kTiming,
   kFrameTiming,
@@ -25,7 +26,7 @@ enum class TopicId : std::uint8_t {
   kEvent,
   kImageChunk,
 };
-inline constexpr std::size_t kTopicCount = 10;
+inline constexpr std::size_t kTopicCount = 11;
 
 /// How a topic travels over DDS.
 enum class Delivery : std::uint8_t {
@@ -71,6 +72,10 @@ struct TopicOf<omma_Attitude> {
 template <>
 struct TopicOf<omma_RelativePose> {
   static constexpr TopicId id = TopicId::kRelativePose;
+};
+template <>
+struct TopicOf<omma_UnknownObjects> {
+  static constexpr TopicId id = TopicId::kUnknownObjects;
 };
 template <>
 struct TopicOf<omma_Health> {

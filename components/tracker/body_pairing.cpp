@@ -5,15 +5,13 @@
 
 namespace omma {
 
-void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
-                          const PredictedPose& prediction) noexcept {
-  points_.clear();
+void BodyPairing::predict(const RigCamera& camera, const BodyPrediction& body, std::size_t index) noexcept {
+  const Pose& rig_from_body = body.pose.rig_from_body;
   const Eigen::Matrix3d camera_from_rig = camera.rig_from_camera.rotation.toRotationMatrix().transpose();
-  const Eigen::Matrix3d rotation = prediction.rig_from_body.rotation.toRotationMatrix();
-  for (std::size_t i = 0; i < body.targets.size(); ++i) {
-    const Eigen::Vector3d arm = rotation * body.targets[i].position;
-    const Eigen::Vector3d gap =
-        arm + prediction.rig_from_body.translation - camera.rig_from_camera.translation;
+  const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
+  for (std::size_t i = 0; i < body.body->targets.size(); ++i) {
+    const Eigen::Vector3d arm = rotation * body.body->targets[i].position;
+    const Eigen::Vector3d gap = arm + rig_from_body.translation - camera.rig_from_camera.translation;
     const double range = gap.norm();
     if (!(range > 0)) continue;
     const Eigen::Vector3d direction = gap / range;
@@ -26,32 +24,38 @@ void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
     const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - direction * direction.transpose()) / range;
     const Eigen::Matrix<double, 2, 6> pixel_by_pose =
         pixel_by_direction * camera_from_rig * across * point_by_pose;
-    point.covariance = pixel_by_pose * prediction.covariance * pixel_by_pose.transpose();
-    point.entry = static_cast<std::uint16_t>(i);
+    point.covariance = pixel_by_pose * body.pose.covariance * pixel_by_pose.transpose();
+    point.entry = static_cast<std::uint16_t>(index * limits::kTargetsPerBody + i);
     points_.push_back(point);
   }
 }
 
-void BodyPairing::pair(SeenDots& dots, const Rig& rig, const TargetBody& body,
-                       const PredictedPose& prediction, const AssignmentGate& gate,
-                       StaticVector<Pairing, limits::kTargetPairs>& out) noexcept {
-  chance_ = 0;
+void BodyPairing::pair(SeenDots& dots, const Rig& rig, std::span<BodyPrediction> bodies,
+                       const AssignmentGate& gate) noexcept {
+  for (BodyPrediction& body : bodies) body.chance = 0;
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
-    if (dots.list(c).dots.empty()) continue;
-    predict(rig.cameras[c], body, prediction);
-    chance_ +=
-        chance_pairs(points_, dots.list(c), gate, rig.cameras[c].lens.width(), rig.cameras[c].lens.height());
-    for (const Assignment& a : assigner_.assign(points_, dots.list(c), dots.grid(c), gate, dots.claimed(c))) {
+    const Lens& lens = rig.cameras[c].lens;
+    const DotList& list = dots.list(c);
+    if (list.dots.empty()) continue;
+    points_.clear();
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const std::size_t first = points_.size();
+      predict(rig.cameras[c], bodies[b], b);
+      bodies[b].chance += chance_pairs({points_.data() + first, points_.size() - first}, list, gate,
+                                       lens.width(), lens.height());
+    }
+    for (const Assignment& a : assigner_.assign(points_, list, dots.grid(c), gate, dots.claimed(c))) {
       const RigDot* ray = dots.ray(c, a.dot);
       if (ray == nullptr) continue;
-      const std::uint16_t target = points_[a.prediction].entry;
+      const std::uint16_t entry = points_[a.prediction].entry;
+      BodyPrediction& body = bodies[entry / limits::kTargetsPerBody];
+      const std::size_t target = entry % limits::kTargetsPerBody;
       Pairing pairing;
-      pairing.sight = SeenDots::sight(*ray, body.targets[target].position);
+      pairing.sight = SeenDots::sight(*ray, body.body->targets[target].position);
       pairing.camera = static_cast<std::uint8_t>(c);
       pairing.dot = a.dot;
-      pairing.entry = target;
-      if (!out.push_back(pairing)) return;
-      dots.claimed(c)[a.dot] = 1;
+      pairing.entry = static_cast<std::uint16_t>(target);
+      if (body.pairs->push_back(pairing)) dots.claimed(c)[a.dot] = 1;
     }
   }
 }

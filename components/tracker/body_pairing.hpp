@@ -7,9 +7,9 @@
 #include "components/catalogue/target.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/tracker/assignment.hpp"
+#include "components/tracker/camera_prediction.hpp"
 #include "components/tracker/pairings.hpp"
 #include "components/tracker/seen_dots.hpp"
-#include "components/tracker/sky_pairing.hpp"
 
 namespace omma {
 
@@ -18,21 +18,27 @@ struct PredictedPose {
   Matrix6d covariance = Matrix6d::Zero();  ///< (δθ, δt), rig frame [rad², rad·m, m²]
 };
 
+/// One body whose targets are looked for, and what was found of it.
+struct BodyPrediction {
+  const TargetBody* body = nullptr;
+  PredictedPose pose;
+  StaticVector<Pairing, limits::kTargetPairs>* pairs = nullptr;  ///< appended to
+  double chance = 0;  ///< pairs that dots at random would have made, in the mean
+};
+
 class BodyPairing {
  public:
-  /// Appends the pairs of all cameras to `out` and marks their dots as claimed.
-  void pair(SeenDots& dots, const Rig& rig, const TargetBody& body, const PredictedPose& prediction,
-            const AssignmentGate& gate, StaticVector<Pairing, limits::kTargetPairs>& out) noexcept;
-
-  /// Pairs the last call would have made, in the mean, of dots at random.
-  double chance() const { return chance_; }
+  /// Pairs the dots of all cameras with the targets of all bodies together, and marks them as claimed: a dot
+  /// that two bodies want goes to the one whose target fits, or to neither where both do.
+  /// @param bodies  at most limits::kTargetBodies
+  void pair(SeenDots& dots, const Rig& rig, std::span<BodyPrediction> bodies,
+            const AssignmentGate& gate) noexcept;
 
  private:
-  void predict(const RigCamera& camera, const TargetBody& body, const PredictedPose& prediction) noexcept;
+  void predict(const RigCamera& camera, const BodyPrediction& body, std::size_t index) noexcept;
 
-  StaticVector<PredictedPoint, limits::kTargetsPerBody> points_;
+  StaticVector<PredictedPoint, limits::kTargetsPerBody * limits::kTargetBodies> points_;
   Assigner assigner_;
-  double chance_ = 0;
 };
 
 /// The cones, one per camera, that hold all targets of the body as seen from that camera: no star is looked

@@ -6,6 +6,7 @@
 #include "components/estimation/sight.hpp"
 #include "components/geometry/pose.hpp"
 #include "config/limits.hpp"
+#include "config/sky_limits.hpp"
 #include "fsw/kernel/static_vector.hpp"
 #include "fsw/kernel/tick.hpp"
 
@@ -15,8 +16,9 @@ struct Pairing {
   Sight sight;
   std::uint8_t camera = 0;        ///< index in the rig
   std::uint16_t dot = 0;          ///< index in the camera's DotList
-  std::uint16_t entry = 0;        ///< star: HR number; target: index in the body
-  std::uint32_t persistence = 0;  ///< frame sets this pairing has lasted
+  std::uint16_t entry = 0;        ///< star: HR number; target: index in the body; else a SolarBody
+  std::uint32_t persistence = 0;  ///< frame sets this pairing has lasted without a gap
+  TimeNs since_ns = 0;            ///< exposure midpoint of the first of them
 };
 
 enum class TrackState : std::uint8_t { kLost, kAcquired, kTracking };
@@ -26,6 +28,9 @@ struct SkyPairings {
   Eigen::Quaterniond rig_from_j2000 =
       Eigen::Quaterniond::Identity();  ///< predicted or acquired: where the solver starts
   StaticVector<Pairing, limits::kStarPairs> pairs;
+  /// Dots of Sun, Moon and planets; not for the attitude (discs have phases). Several dots may be of one
+  /// disc.
+  StaticVector<Pairing, limits::kSolarPairs> solar;
 };
 
 struct BodyPairings {

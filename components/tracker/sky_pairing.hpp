@@ -9,26 +9,18 @@
 #include "components/catalogue/star.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/tracker/assignment.hpp"
+#include "components/tracker/camera_prediction.hpp"
 #include "components/tracker/pairings.hpp"
 #include "components/tracker/seen_dots.hpp"
+#include "components/tracker/solar_pairing.hpp"
 
 namespace omma {
 
-struct PredictedAttitude {
-  Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< small rotation, rig frame [rad²]
-};
-
-/// A part of the sky, seen from the rig, where no star is to be paired (a body stands before it).
-struct HiddenCone {
-  Eigen::Vector3d apex = Eigen::Vector3d::Zero();   ///< a camera's centre sees the body along ...
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< ... this unit direction, rig frame
-  double cos_half_angle = 1;
-  std::uint8_t camera = 0;
-};
-
 class SkyPairing {
  public:
+  /// Sun, Moon and planets to look for among the stars; as SolarPairing::look_for.
+  void look_for(std::span<const SolarBodyPlace> places) noexcept { solar_.look_for(places); }
+
   /// Appends the pairs of all cameras to `out`, camera by camera, and marks their dots as claimed. Of each
   /// image the brightest Assigner::kPredictions stars are looked for. Where the cameras have more pairs than
   /// `out` has room for, each gets the same share of it, its brightest stars.
@@ -37,13 +29,15 @@ class SkyPairing {
             const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
             std::span<const HiddenCone> hidden, StaticVector<Pairing, limits::kStarPairs>& out) noexcept;
 
+  /// Of Sun, Moon and planets, from the last call; their dots are claimed as well.
+  std::span<const Pairing> solar_pairs() const noexcept { return solar_.pairs(); }
+
   /// Pairs the last call would have made, in the mean, of dots at random.
   double chance() const { return chance_; }
 
  private:
-  void predict(const RigCamera& camera, std::size_t camera_index, std::span<const SkyStar> stars,
-               const PredictedAttitude& prediction, float magnitude_limit,
-               std::span<const HiddenCone> hidden) noexcept;
+  void predict(const CameraPrediction& prediction, std::span<const SkyStar> stars,
+               float magnitude_limit) noexcept;
   std::size_t share_of_each(std::size_t cameras, std::size_t room) const noexcept;
 
   struct Found {
@@ -54,6 +48,7 @@ class SkyPairing {
   StaticVector<PredictedPoint, Assigner::kPredictions> points_;
   std::array<StaticVector<Found, limits::kDotsPerCamera>, limits::kCameras> found_;
   Assigner assigner_;
+  SolarPairing solar_;
   double chance_ = 0;
 };
 

@@ -31,12 +31,14 @@ void Tracker::visit_ports(PortVisitor& visitor) const {
 }
 
 void Tracker::step(const Tick& /*tick*/) noexcept {
+  ++steps_;
   learn();
   Pairings& out = *pairings;
   frame_interval_ns_ = out.time_ns > 0 ? dots->time_ns - out.time_ns : 0;
   out.frame = dots->frame;
   out.time_ns = dots->time_ns;
   seen_.build(*dots, rig_, parameters_.floor_px);
+  place_solar_system();
 
   // Tracked bodies first: where one stands no star is to be looked for.
   std::array<HiddenCone, std::size_t{limits::kCameras} * limits::kTargetBodies> cones;
@@ -69,25 +71,75 @@ bool Tracker::predictable(bool ready, TimeNs last_time_ns) const noexcept {
   return ready && dots->time_ns - last_time_ns <= (parameters_.patience + 1) * frame_interval_ns_;
 }
 
+// Once a second is enough: the Moon goes 0.6" in that time. The first frame set is of the mission's epoch.
+void Tracker::place_solar_system() noexcept {
+  constexpr TimeNs kRefreshNs = 1'000'000'000;
+  if (!parameters_.observer.julian_date_utc) return;
+  if (!first_time_ns_) {
+    first_time_ns_ = dots->time_ns;
+    sky_pairing_.look_for(solar_system_);
+  } else if (dots->time_ns - solar_system_time_ns_ < kRefreshNs) {
+    return;
+  }
+  Observer now = parameters_.observer;
+  *now.julian_date_utc += 1e-9 / 86400 * static_cast<double>(dots->time_ns - *first_time_ns_);
+  solar_system_ = solar_system(now, parameters_.observer_sigma);
+  solar_system_time_ns_ = dots->time_ns;
+}
+
+void Tracker::claim_nothing(std::span<const Pairing> pairs) noexcept {
+  for (const Pairing& pair : pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
+}
+
+// All bodies that are predicted compete for the dots. One that turns out to be lost is to leave no dot
+// unclaimed that another body wanted as well: then the rest is paired again.
+bool Tracker::pair_bodies(std::size_t count) noexcept {
+  const std::span<BodyPrediction> wanted(predictions_.data(), count);
+  body_pairing_.pair(seen_, rig_, wanted, parameters_.gate);
+  bool all_there = true;
+  for (const BodyPrediction& prediction : wanted)
+    all_there = all_there &&
+                beyond_chance(prediction.pairs->size(), prediction.chance, parameters_.least_target_pairs);
+  return all_there;
+}
+
 void Tracker::track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept {
+  std::size_t count = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     TrackedBody& tracked = bodies_[b];
     BodyPairings& out = pairings->bodies[b];
     out.state = TrackState::kLost;
     out.body = static_cast<std::uint8_t>(b);
     out.pairs.clear();
-    if (!predictable(tracked.prediction.ready(), tracked.prediction.last_time_ns())) continue;
-    const PredictedPose prediction = tracked.prediction.at(dots->time_ns);
-    body_pairing_.pair(seen_, rig_, *tracked.body, prediction, parameters_.gate, out.pairs);
-    if (!beyond_chance(out.pairs.size(), body_pairing_.chance(), parameters_.least_target_pairs)) {
-      for (const Pairing& pair : out.pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
-      out.pairs.clear();
-      tracked.prediction.reset();
-      continue;
+    if (predictable(tracked.prediction.ready(), tracked.prediction.last_time_ns()))
+      predictions_[count++] = {tracked.body, tracked.prediction.at(dots->time_ns), &out.pairs};
+  }
+  while (count > 0 && !pair_bodies(count)) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      BodyPrediction& prediction = predictions_[i];
+      const bool there =
+          beyond_chance(prediction.pairs->size(), prediction.chance, parameters_.least_target_pairs);
+      claim_nothing(*prediction.pairs);
+      prediction.pairs->clear();
+      if (there) {
+        predictions_[kept++] = prediction;
+        continue;
+      }
+      for (TrackedBody& tracked : bodies_)
+        if (tracked.body == prediction.body) tracked.prediction.reset();
     }
+    count = kept;
+  }
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const BodyPrediction* found =
+        std::find_if(predictions_.data(), predictions_.data() + count,
+                     [&](const BodyPrediction& prediction) { return prediction.body == bodies_[b].body; });
+    if (found == predictions_.data() + count) continue;
+    BodyPairings& out = pairings->bodies[b];
     out.state = TrackState::kTracking;
-    out.rig_from_body = prediction.rig_from_body;
-    cone_count += hidden_cones(rig_, *tracked.body, prediction.rig_from_body, cones.subspan(cone_count));
+    out.rig_from_body = found->pose.rig_from_body;
+    cone_count += hidden_cones(rig_, *bodies_[b].body, out.rig_from_body, cones.subspan(cone_count));
   }
 }
 
@@ -95,16 +147,19 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
   SkyPairings& sky = pairings->sky;
   sky.state = TrackState::kLost;
   sky.pairs.clear();
+  sky.solar.clear();
   if (!predictable(sky_prediction_.ready(), sky_prediction_.last_time_ns())) return;
   const PredictedAttitude prediction = sky_prediction_.at(dots->time_ns);
   sky_pairing_.pair(seen_, rig_, catalogue_.stars(), prediction, parameters_.faintest_star, parameters_.gate,
                     cones, sky.pairs);
   if (!beyond_chance(sky.pairs.size(), sky_pairing_.chance(), parameters_.least_star_pairs)) {
-    for (const Pairing& pair : sky.pairs) seen_.claimed(pair.camera)[pair.dot] = 0;
+    claim_nothing(sky.pairs);
+    claim_nothing(sky_pairing_.solar_pairs());
     sky.pairs.clear();
     sky_prediction_.reset();
     return;
   }
+  for (const Pairing& pair : sky_pairing_.solar_pairs()) sky.solar.push_back(pair);
   sky.state = TrackState::kTracking;
   sky.rig_from_j2000 = prediction.rig_from_j2000;
 }
@@ -118,6 +173,7 @@ void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   const PredictedAttitude found{identification_.rig_from_j2000, identification_.covariance};
   sky_pairing_.pair(seen_, rig_, catalogue_.stars(), found, parameters_.faintest_star, parameters_.gate,
                     cones, sky.pairs);
+  for (const Pairing& pair : sky_pairing_.solar_pairs()) sky.solar.push_back(pair);
   sky.state = TrackState::kAcquired;
   sky.rig_from_j2000 = found.rig_from_j2000;
 }
@@ -151,20 +207,24 @@ void Tracker::acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept {
   out.rig_from_body = found.pose.rig_from_body;
 }
 
-void Tracker::count_persistence() noexcept {
-  star_persistence_now_.fill(0);
-  for (Pairing& pair : pairings->sky.pairs) {
-    pair.persistence = star_persistence_[pair.entry] + 1;
-    star_persistence_now_[pair.entry] = pair.persistence;
+// Two dots of one star, in two cameras, are one thing.
+void Tracker::count_persistence(Pairing& pair, Persistence& persistence) const noexcept {
+  if (persistence.last_step != steps_) {
+    const bool goes_on = persistence.frame_sets > 0 && persistence.last_step + 1 == steps_;
+    persistence.frame_sets = goes_on ? persistence.frame_sets + 1 : 1;
+    if (!goes_on) persistence.since_ns = dots->time_ns;
+    persistence.last_step = steps_;
   }
-  std::swap(star_persistence_, star_persistence_now_);
+  pair.persistence = persistence.frame_sets;
+  pair.since_ns = persistence.since_ns;
+}
+
+void Tracker::count_persistence() noexcept {
+  for (Pairing& pair : pairings->sky.pairs) count_persistence(pair, star_persistence_[pair.entry]);
+  for (Pairing& pair : pairings->sky.solar) count_persistence(pair, solar_persistence_[pair.entry]);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    std::array<std::uint32_t, limits::kTargetsPerBody> now{};
-    for (Pairing& pair : pairings->bodies[b].pairs) {
-      pair.persistence = bodies_[b].persistence[pair.entry] + 1;
-      now[pair.entry] = pair.persistence;
-    }
-    bodies_[b].persistence = now;
+    for (Pairing& pair : pairings->bodies[b].pairs)
+      count_persistence(pair, bodies_[b].persistence[pair.entry]);
   }
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "components/attitude/attitude_estimate.hpp"
@@ -41,21 +42,31 @@ class Tracker final : public Component {
   void step(const Tick& tick) noexcept override;
 
  private:
+  /// How long something has been paired in every frame set.
+  struct Persistence {
+    std::uint64_t last_step = 0;
+    std::uint32_t frame_sets = 0;
+    TimeNs since_ns = 0;
+  };
   struct TrackedBody {
     const TargetBody* body = nullptr;
     TargetIdentifier identifier;
     PosePrediction prediction;
-    std::array<std::uint32_t, limits::kTargetsPerBody> persistence{};
+    std::array<Persistence, limits::kTargetsPerBody> persistence{};
   };
 
   void learn() noexcept;
   bool predictable(bool ready, TimeNs last_time_ns) const noexcept;
+  void place_solar_system() noexcept;
+  bool pair_bodies(std::size_t count) noexcept;
   void track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept;
   void track_sky(std::span<const HiddenCone> cones) noexcept;
   void acquire_sky(std::span<const HiddenCone> cones) noexcept;
   int acquire_bodies() noexcept;  ///< how many
   void acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept;
+  void count_persistence(Pairing& pair, Persistence& persistence) const noexcept;
   void count_persistence() noexcept;
+  void claim_nothing(std::span<const Pairing> pairs) noexcept;
   void count_unclaimed() noexcept;
 
   TrackerParameters parameters_;
@@ -69,9 +80,14 @@ class Tracker final : public Component {
   SkyPairing sky_pairing_;
   BodyPairing body_pairing_;
   std::array<RigDot, SeenDots::kDots> unclaimed_{};
-  std::array<std::uint32_t, StarCatalogue::kCapacity> star_persistence_{};  // by HR number
-  std::array<std::uint32_t, StarCatalogue::kCapacity> star_persistence_now_{};
+  SolarSystem solar_system_{};
+  TimeNs solar_system_time_ns_ = 0;
+  std::optional<TimeNs> first_time_ns_;                                   // when the epoch was
+  std::array<Persistence, StarCatalogue::kCapacity> star_persistence_{};  // by HR number
+  std::array<Persistence, kSolarBodies> solar_persistence_{};
+  std::array<BodyPrediction, limits::kTargetBodies> predictions_{};
   TimeNs frame_interval_ns_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace omma

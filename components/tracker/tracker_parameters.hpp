@@ -1,6 +1,8 @@
 // What can be chosen about tracking.
 #pragma once
 
+#include "components/catalogue/observer.hpp"
+#include "components/catalogue/solar_system.hpp"
 #include "components/tracker/assignment.hpp"
 
 namespace omma {
@@ -14,7 +16,9 @@ struct TrackerParameters {
   double body_linear_acceleration = 0.05;   ///< of a body relative to the rig, not modelled [m/s²]
   int least_star_pairs = 5;    ///< fewer beyond chance while tracking: the sky is lost and searched again
   int least_target_pairs = 4;  ///< fewer beyond chance while tracking: the body is lost and searched again
-  int patience = 3;            ///< frame sets a prediction is trusted without a new estimate
+  Observer observer;           ///< at the first frame set; without an epoch no planets are looked for
+  double observer_sigma = kUnknownOrbit;  ///< of the observer's position, each axis [m]
+  int patience = 3;                       ///< frame sets a prediction is trusted without a new estimate
 };
 
 }  // namespace omma

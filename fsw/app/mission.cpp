@@ -1,11 +1,14 @@
 #include "fsw/app/mission.hpp"
 
 #include <algorithm>
+#include <numbers>
+#include <optional>
 
 #include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/geometry/rig_file.hpp"
+#include "fsw/app/mission_imaging.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
 
@@ -107,7 +110,20 @@ TrackerParameters read_tracker(const TomlTable& table) {
   p.body_linear_acceleration = table.number("body_linear_acceleration", {0, 100}, p.body_linear_acceleration);
   p.least_star_pairs = static_cast<int>(table.integer("least_star_pairs", {3, 100}, p.least_star_pairs));
   p.least_target_pairs = static_cast<int>(table.integer("least_target_pairs", {3, 64}, p.least_target_pairs));
+  p.observer_sigma = table.number("observer_sigma_m", {0, 1e9}, p.observer_sigma);
   p.patience = static_cast<int>(table.integer("patience", {1, 1000}, p.patience));
+  table.refuse_unknown_keys();
+  return p;
+}
+
+SurveillanceParameters read_surveillance(const TomlTable& table) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  SurveillanceParameters p;
+  p.largest_rate = kDegree * table.number("largest_rate_deg_s", {0.001, 90}, p.largest_rate / kDegree);
+  p.acceleration = kDegree * table.number("acceleration_deg_s2", {1e-9, 90}, p.acceleration / kDegree);
+  p.false_objects_per_hour = table.number("false_objects_per_hour", {1e-9, 1000}, p.false_objects_per_hour);
+  p.least_sightings = static_cast<int>(table.integer("least_sightings", {3, 1000}, p.least_sightings));
+  p.patience = static_cast<int>(table.integer("patience", {1, 10000}, p.patience));
   table.refuse_unknown_keys();
   return p;
 }
@@ -167,9 +183,10 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.spacecraft = Name(spacecraft);
   mission.frame_rate_hz = root.number("frame_rate_hz", {0.01, 1000});
   mission.epoch_utc = root.text("epoch", "");
+  std::optional<double> epoch;
   if (!mission.epoch_utc.empty()) {
     try {
-      parse_utc(mission.epoch_utc);
+      epoch = parse_utc(mission.epoch_utc);
     } catch (const std::exception&) {
       throw root.error("epoch", "a UTC time like 2026-03-20T12:00:00Z", mission.epoch_utc);
     }
@@ -180,15 +197,13 @@ Mission read_mission(const std::filesystem::path& file) {
   if (root.has("recording")) mission.recording = root.path("recording");
   mission.bodies = read_bodies(root);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
+  mission.tracker.observer.julian_date_utc = epoch;
+  if (const auto surveillance = root.table_if("surveillance"))
+    mission.surveillance = read_surveillance(*surveillance);
   if (const auto attitude = root.table_if("attitude"))
     mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
-  if (const auto imaging = root.table_if("imaging")) {
-    mission.panorama_width =
-        static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));
-    mission.panorama_period =
-        static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
-    imaging->refuse_unknown_keys();
-  }
+  mission.imaging.period = 10;
+  if (const auto imaging = root.table_if("imaging")) mission.imaging = read_imaging(*imaging, mission.rig);
   if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);
   mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));
   root.refuse_unknown_keys();

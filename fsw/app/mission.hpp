@@ -10,7 +10,9 @@
 #include "components/catalogue/target.hpp"
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
+#include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
+#include "components/surveillance/surveillance_parameters.hpp"
 #include "components/telemetry/frame_stages.hpp"
 #include "components/tracker/tracker_parameters.hpp"
 #include "hal/camera_setup.hpp"
@@ -39,11 +41,11 @@ struct Mission {
   TrackerParameters tracker;
   AttitudeParameters attitude;
   RelativePoseParameters pose;
-  int panorama_width = 1024;  ///< [px]; the height is half of it
-  int panorama_period = 10;   ///< frame sets from one panorama to the next
   /// Latest time after the trigger by which each stage is to be done [ms]; 0: as the schedule's budgets have
   /// it.
   telemetry::PerStage<double> latency_ms{};
+  SurveillanceParameters surveillance;
+  ImagingParameters imaging;
   int dds_domain = 0;
 };
 

@@ -11,12 +11,10 @@ constexpr int kVisionPriority = 60;
 constexpr int kHealthPriority = 10;
 
 StarCatalogue star_catalogue(const Mission& mission) {
-  Observer observer;
-  if (!mission.epoch_utc.empty()) observer.julian_date_utc = parse_utc(mission.epoch_utc);
   double finest = 1;
   for (const RigCamera& camera : mission.rig.cameras) finest = std::min(finest, camera.lens.pixel_angle());
   // Two stars within two pixels of the finest camera are one dot.
-  return {observer, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
+  return {mission.tracker.observer, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
 }
 
 std::uint32_t beats_per_second(double rate_hz) {
@@ -30,13 +28,6 @@ std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
     cameras.push_back({lens.width(), lens.height(), mission.cameras[c].extractor});
   }
   return cameras;
-}
-
-ImagingParameters imaging_parameters(const Mission& mission) {
-  ImagingParameters parameters;
-  parameters.panorama.width = mission.panorama_width;
-  parameters.period = mission.panorama_period;
-  return parameters;
 }
 
 std::optional<UtcNs> epoch(const Mission& mission) {
@@ -64,7 +55,8 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
       attitude(mission_.attitude),
       pose(mission_.pose),
-      imaging(imaging_parameters(mission_), mission_.rig),
+      surveillance(mission_.surveillance, mission_.rig, catalogue_, mission_.tracker.floor_px),
+      imaging(mission_.imaging, mission_.rig),
       telemetry(telemetry_names(mission_), events),
       utc(options.lockstep ? UtcCorrelation::Kind::kReplay : UtcCorrelation::Kind::kLive, epoch(mission_)),
       health(events),
@@ -82,6 +74,9 @@ void Topology::connect() {
   tracker.poses.bind(pose.estimates);
   attitude.pairings.bind(tracker.pairings);
   pose.pairings.bind(tracker.pairings);
+  surveillance.dots.bind(extractor.dots);
+  surveillance.pairings.bind(tracker.pairings);
+  surveillance.attitude.bind(attitude.estimate);
   imaging.frames.bind(cameras.frames);
   imaging.dots.bind(extractor.dots);
   imaging.attitude.bind(attitude.estimate);
@@ -90,6 +85,7 @@ void Topology::connect() {
   telemetry.pairings.bind(tracker.pairings);
   telemetry.attitude.bind(attitude.estimate);
   telemetry.poses.bind(pose.estimates);
+  telemetry.objects.bind(surveillance.objects);
   telemetry.image.bind(imaging.chunk);
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
@@ -108,6 +104,7 @@ RateGroupTable Topology::table() {
                                      {tracker, microseconds(15000)},
                                      {attitude, microseconds(2000)},
                                      {pose, microseconds(2000)},
+                                     {surveillance, microseconds(2000)},
                                      {imaging, microseconds(10000), {.reaction = BreachReaction::kDegrade}},
                                      {telemetry, microseconds(1000)}}},
                      {.name = "health",

@@ -11,6 +11,7 @@
 #include "components/extractor/extractor.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
+#include "components/surveillance/surveillance.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
 #include "components/telemetry/telemetry.hpp"
 #include "components/tracker/tracker.hpp"
@@ -62,6 +63,7 @@ class Topology {
   Tracker tracker;
   Attitude attitude;
   RelativePose pose;
+  Surveillance surveillance;
   Imaging imaging;
   Telemetry telemetry;
   UtcCorrelation utc;

@@ -37,6 +37,10 @@ const char* name_of(omma_HealthState state) {
   static constexpr const char* kNames[] = {"ok", "degraded", "failed"};
   return kNames[static_cast<std::size_t>(state)];
 }
+const char* name_of(omma_ObjectMotion motion) {
+  static constexpr const char* kNames[] = {"undecided", "moving", "with the stars", "with the rig"};
+  return kNames[static_cast<std::size_t>(motion)];
+}
 const char* name_of(omma_EventSeverity severity) {
   static constexpr const char* kNames[] = {"diagnostic", "activity", "warning", "failure"};
   return kNames[static_cast<std::size_t>(severity)];
@@ -140,6 +144,28 @@ void add_pose(Table& table, const omma_RelativePose& pose) {
                    sigma(2) * kDegrees));
 }
 
+void add_objects(Table& table, const omma_UnknownObjects& objects) {
+  table.add(TopicId::kUnknownObjects, LineStyle::kPlain,
+            format("%u followed   %u candidates   %u dots that nobody claims", objects.objects._length,
+                   objects.candidates, objects.leftover_dots));
+  if (objects.objects._length == 0) return;
+  table.plain("number  motion           RA deg   Dec deg   1-sigma  rate arcmin/s    snr  sightings  missed");
+  for (std::uint32_t i = 0; i < objects.objects._length; ++i) {
+    const omma_UnknownObject& object = objects.objects._buffer[i];
+    const omma_Vector3& d = object.direction;
+    const omma_Vector3& v = object.velocity_rad_s;
+    const double ra = std::atan2(d.y, d.x) * kDegrees;
+    const double* covariance = object.covariance_direction_rad2;
+    const double sigma = std::sqrt(0.5 * (covariance[0] + covariance[4] + covariance[8]));
+    table.add(TopicId::kUnknownObjects, object.seen ? LineStyle::kGood : LineStyle::kWarning,
+              format("%6u  %-14s %8.3f  %+8.3f  %6.1f\"  %13.3f  %5.1f  %9u  %6u", object.number,
+                     name_of(object.motion), ra < 0 ? ra + 360 : ra,
+                     std::asin(std::clamp(d.z, -1.0, 1.0)) * kDegrees, sigma * kArcseconds,
+                     std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) * kArcseconds / 60,
+                     static_cast<double>(object.snr), object.sightings, object.missed));
+  }
+}
+
 void add_health(Table& table, const omma_Health& health) {
   const LineStyle style = health.state == omma_HEALTH_OK         ? LineStyle::kGood
                           : health.state == omma_HEALTH_DEGRADED ? LineStyle::kWarning
@@ -228,6 +254,8 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
   if (samples.attitude() != nullptr) add_attitude(table, *samples.attitude());
   table.heading("POSES", TopicId::kRelativePose);
   for (const auto& [body, pose] : samples.poses()) add_pose(table, pose);
+  table.heading("OBJECTS", TopicId::kUnknownObjects);
+  if (samples.objects() != nullptr) add_objects(table, *samples.objects());
   table.heading("HEALTH", TopicId::kHealth);
   if (samples.health() != nullptr) add_health(table, *samples.health());
   table.heading("TIMING", TopicId::kTiming);

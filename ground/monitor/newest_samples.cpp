@@ -34,6 +34,9 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
       if (sound) poses_[pose->body] = *pose;
       break;
     }
+    case TopicId::kUnknownObjects:
+      sound = keep(objects_reader_, cdr, objects_);
+      break;
     case TopicId::kHealth:
       sound = keep(health_reader_, cdr, health_);
       break;

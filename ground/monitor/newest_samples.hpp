@@ -33,6 +33,7 @@ class NewestSamples {
   // Null until there is one; valid until the next one is taken.
   const omma_FrameSet* frame_set() const { return frame_set_; }
   const omma_Attitude* attitude() const { return attitude_; }
+  const omma_UnknownObjects* objects() const { return objects_; }
   const omma_Health* health() const { return health_; }
   const omma_Timing* timing() const { return timing_; }
   const omma_FrameTiming* frame_timing() const { return frame_timing_; }
@@ -51,6 +52,7 @@ class NewestSamples {
   telemetry::CdrReader frame_set_reader_{telemetry::TopicId::kFrameSet};
   telemetry::CdrReader attitude_reader_{telemetry::TopicId::kAttitude};
   telemetry::CdrReader pose_reader_{telemetry::TopicId::kRelativePose};
+  telemetry::CdrReader objects_reader_{telemetry::TopicId::kUnknownObjects};
   telemetry::CdrReader health_reader_{telemetry::TopicId::kHealth};
   telemetry::CdrReader timing_reader_{telemetry::TopicId::kTiming};
   telemetry::CdrReader frame_timing_reader_{telemetry::TopicId::kFrameTiming};
@@ -59,6 +61,7 @@ class NewestSamples {
   telemetry::CdrReader image_reader_{telemetry::TopicId::kImageChunk};
   const omma_FrameSet* frame_set_ = nullptr;
   const omma_Attitude* attitude_ = nullptr;
+  const omma_UnknownObjects* objects_ = nullptr;
   const omma_Health* health_ = nullptr;
   const omma_Timing* timing_ = nullptr;
   const omma_FrameTiming* frame_timing_ = nullptr;

@@ -12,17 +12,24 @@ namespace omma::ground {
 
 struct ChunkPicture {
   omma_ImageKind kind = omma_IMAGE_PANORAMA_J2000;
+  omma_ImageComposite composite = omma_COMPOSITE_SINGLE;
+  int composed = 1;
+  int camera = 0;  ///< of a part of a camera's image
+  int left = 0;    ///< [px]
+  int top = 0;
   GreyPicture picture;            ///< rows that did not arrive are 0
   std::vector<bool> rows;         ///< which arrived
   std::uint64_t first_frame = 0;  ///< frame sets its rows were taken from
   std::uint64_t last_frame = 0;
+  std::uint64_t bytes = 0;  ///< that came down
   bool complete() const;
+  int rows_there() const;
 };
 
 class ChunkPictures {
  public:
-  /// A chunk that contradicts itself (its rows and its bytes) or its picture (another size) is left out and
-  /// counted.
+  /// A chunk that contradicts itself (its rows and its bytes), cannot be decoded, or contradicts its picture
+  /// (another size) is left out and counted.
   void take(const omma_ImageChunk& chunk);
 
   /// By image number, complete or not.
@@ -32,7 +39,10 @@ class ChunkPictures {
   const ChunkPicture* last_complete(omma_ImageKind kind) const;
 
  private:
+  bool decode(const omma_ImageChunk& chunk);
+
   std::map<std::uint32_t, ChunkPicture> pictures_;
+  std::vector<std::uint8_t> rows_;  // of the chunk at hand
   std::uint64_t refused_ = 0;
 };
 

@@ -46,7 +46,7 @@ class SpotsByName {
 };
 
 bool used(const omma_Dot& dot) {
-  return dot.role != omma_DOT_UNPAIRED && !dot.culled;
+  return (dot.role == omma_DOT_STAR || dot.role == omma_DOT_TARGET) && !dot.culled;
 }
 
 /// The spots that the solutions of this frame set were made of.

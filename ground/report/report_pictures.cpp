@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "components/catalogue/solar_system.hpp"
 #include "components/imaging/panorama.hpp"
 #include "ground/draw/labels.hpp"
 #include "ground/draw/sky_grid.hpp"
@@ -15,6 +16,8 @@ namespace {
 
 constexpr Colour kStar{0.45, 0.95, 0.55, 0.9};
 constexpr Colour kTarget{0.4, 0.75, 1.0, 0.95};
+constexpr Colour kSolar{1.0, 0.75, 0.25, 0.95};
+constexpr Colour kObject{0.95, 0.45, 0.95, 0.95};
 constexpr Colour kCulled{1.0, 0.35, 0.3, 0.95};
 constexpr Colour kUnpaired{0.7, 0.7, 0.7, 0.45};
 constexpr Colour kName{1.0, 0.92, 0.7, 1.0};
@@ -39,6 +42,8 @@ bool seen(const GreyPicture& panorama, const Eigen::Vector2d& at) {
 struct Tally {
   int stars = 0;
   int targets = 0;
+  int solar = 0;
+  int objects = 0;
   int culled = 0;
   int unpaired = 0;
 };
@@ -54,6 +59,12 @@ void mark(Canvas& canvas, const omma_Dot& dot, int scale, Tally& tally) {
   } else if (dot.role == omma_DOT_STAR) {
     ++tally.stars;
     canvas.circle(at, 6, kStar, 1.2);
+  } else if (dot.role == omma_DOT_SOLAR_BODY) {
+    ++tally.solar;
+    canvas.circle(at, 9, kSolar, 1.4);
+  } else if (dot.role == omma_DOT_OBJECT) {
+    ++tally.objects;
+    canvas.circle(at, 9, kObject, 1.4);
   } else {
     ++tally.targets;
     canvas.circle(at, 7, kTarget, 1.4);
@@ -64,6 +75,10 @@ void name(Labels& labels, const omma_Dot& dot, int scale, const FlownMission& mi
   const Eigen::Vector2d at(scale * (dot.u_px + 0.5) - 0.5, scale * (dot.v_px + 0.5) - 0.5);
   if (dot.role == omma_DOT_STAR) {
     labels.place(at, 7, star_text(dot.entry), 12, kName);
+  } else if (dot.role == omma_DOT_SOLAR_BODY) {
+    labels.place(at, 10, std::string(solar_body_name(dot.entry)), 13, kSolar);
+  } else if (dot.role == omma_DOT_OBJECT) {
+    labels.place(at, 10, "object " + std::to_string(dot.entry), 12, kObject);
   } else if (dot.body < mission.bodies.size() && dot.entry < mission.bodies[dot.body].targets.size()) {
     labels.place(at, 8, mission.bodies[dot.body].targets[dot.entry].id.view(), 12, kTarget);
   }
@@ -114,6 +129,8 @@ Canvas camera_picture(const std::filesystem::path& image_file, const FlownMissio
   legend(camera + ", frame set " + std::to_string(frame), kName);
   legend(std::to_string(tally.stars) + " stars", kStar);
   if (tally.targets > 0) legend(std::to_string(tally.targets) + " targets", kTarget);
+  if (tally.solar > 0) legend(std::to_string(tally.solar) + " Sun, Moon, planets", kSolar);
+  if (tally.objects > 0) legend(std::to_string(tally.objects) + " objects", kObject);
   legend(std::to_string(tally.culled) + " culled", kCulled);
   legend(std::to_string(tally.unpaired) + " unpaired", kUnpaired.with_alpha(1));
   return canvas;

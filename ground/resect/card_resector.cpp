@@ -129,7 +129,8 @@ bool CardResector::Work::pair_and_solve(double error, Resection& resection) {
   gate.floor_px = error;
   StaticVector<Pairing, limits::kTargetPairs> pairs;
   const PredictedPose prediction{resection.pose.rig_from_body, resection.pose.covariance};
-  body_pairing.pair(seen, rig, body, prediction, gate, pairs);
+  BodyPrediction wanted{&body, prediction, &pairs};
+  body_pairing.pair(seen, rig, {&wanted, 1}, gate);
   std::vector<Sight> sights;
   for (const Pairing& pairing : pairs) sights.push_back(pairing.sight);
   std::vector<std::uint8_t> used(sights.size());

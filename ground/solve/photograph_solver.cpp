@@ -16,6 +16,8 @@ namespace omma::ground {
 namespace {
 
 constexpr int kPasses = 4;
+constexpr double kEarthRadius =
+    6.4e6;  // a photograph of an unknown site: how far from the Earth's centre [m]
 // Nobody waits for a photograph as a spacecraft waits for its attitude: about half a second at most.
 constexpr std::uint32_t kHypothesisLimit = 1'000'000;
 
@@ -46,7 +48,9 @@ struct PhotographSolver::Work {
         options(the_options),
         // Two stars within two pixels are one dot.
         catalogue(options.observer, {options.magnitude_limit, 2 * finest_pixel_angle(rig)}),
+        places(solar_system(options.observer, options.observer.site ? 0 : kEarthRadius)),
         identification(catalogue, sky_coverage(rig), {.hypothesis_limit = kHypothesisLimit}) {
+    if (options.observer.julian_date_utc) sky_pairing.look_for(places);
     for (const RigCamera& camera : rig.cameras) {
       extractors.push_back(std::make_unique<DotExtractor>(camera.lens.width(), camera.lens.height()));
     }
@@ -65,6 +69,7 @@ struct PhotographSolver::Work {
   Rig rig;
   SolverOptions options;
   StarCatalogue catalogue;
+  SolarSystem places;  // of meaning with an epoch
   StarIdentification identification;
   std::vector<std::unique_ptr<DotExtractor>> extractors;
   DotLists dots;
@@ -110,16 +115,20 @@ void PhotographSolver::Work::pair_and_solve(const PredictedAttitude& prediction,
   solution.attitude = solve_attitude(sights, prediction.rig_from_j2000, SolveOptions{}, used);
   solution.pairs.clear();
   for (std::size_t i = 0; i < pairs.size(); ++i) solution.pairs.push_back({pairs[i], used[i] != 0, 0});
+  solution.solar.clear();
+  for (const Pairing& pairing : sky_pairing.solar_pairs()) solution.solar.push_back({pairing, false, 0});
 }
 
-// Distance of each dot from its star [px].
+// Distance of each dot from its star or planet [px].
 void PhotographSolver::Work::residuals(PhotographSolution& solution) const {
-  for (SolvedPair& pair : solution.pairs) {
-    const RigCamera& camera = rig.cameras[pair.pairing.camera];
-    const Eigen::Vector3d direction = camera.rig_from_camera.rotation.conjugate() *
-                                      (solution.attitude.rig_from_j2000 * pair.pairing.sight.point);
-    Eigen::Vector2d pixel;
-    if (camera.lens.project(direction, pixel)) pair.residual_px = (dot_of(pair).pixel - pixel).norm();
+  for (std::vector<SolvedPair>* pairs : {&solution.pairs, &solution.solar}) {
+    for (SolvedPair& pair : *pairs) {
+      const RigCamera& camera = rig.cameras[pair.pairing.camera];
+      const Eigen::Vector3d direction = camera.rig_from_camera.rotation.conjugate() *
+                                        (solution.attitude.rig_from_j2000 * pair.pairing.sight.point);
+      Eigen::Vector2d pixel;
+      if (camera.lens.project(direction, pixel)) pair.residual_px = (dot_of(pair).pixel - pixel).norm();
+    }
   }
   solution.residual_rms_px = residual_rms(solution.pairs);
 }

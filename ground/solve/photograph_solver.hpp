@@ -44,6 +44,7 @@ struct PhotographSolution {
   AttitudeSolution attitude;
   std::vector<SolvedCamera> cameras;  ///< in the order of the rig
   std::vector<SolvedPair> pairs;
+  std::vector<SolvedPair> solar;  ///< dots of Moon and planets; `entry` is a SolarBody. None without an epoch
   int stars_used = 0;
   double residual_rms_px = 0;
   double log10_false_match = 0;  ///< bound on the probability that the identification is false

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "components/catalogue/solar_system.hpp"
 #include "components/catalogue/star_names.hpp"
 #include "ground/annotate.hpp"
 #include "ground/format.hpp"
@@ -43,6 +44,13 @@ std::string solution_text(const Rig& rig, const PhotographSolution& solution, co
       format("1-sigma          x %.2f\"  y %.2f\"  z %.2f\" (rig axes)\n", sigma.x(), sigma.y(), sigma.z());
   text += format("stars used       %d, residual rms %.3f px, false match below 1e%.0f\n", solution.stars_used,
                  solution.residual_rms_px, solution.log10_false_match);
+  for (const SolvedPair& pair : solution.solar) {
+    const Dot& dot = dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
+    text +=
+        format("%-16s %s (%.1f, %.1f), %.2f px from its place\n",
+               std::string(solar_body_name(pair.pairing.entry)).c_str(),
+               rig.cameras[pair.pairing.camera].name.c_str(), dot.pixel.x(), dot.pixel.y(), pair.residual_px);
+  }
   text += format("time             extract %.2f ms, identify %.2f ms, attitude %.2f ms\n",
                  solution.times.extract_ms, solution.times.identify_ms, solution.times.attitude_ms);
   return text;
@@ -79,6 +87,15 @@ std::string solution_json(const Rig& rig, const PhotographSolution& solution, co
     camera["dots"] = dots.cameras[c].dots.size();
     json["cameras"].push_back(camera);
   }
+  json["solar_system"] = nlohmann::ordered_json::array();
+  for (const SolvedPair& pair : solution.solar) {
+    const Dot& dot = dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
+    json["solar_system"].push_back({{"name", solar_body_name(pair.pairing.entry)},
+                                    {"camera", std::string(rig.cameras[pair.pairing.camera].name.view())},
+                                    {"u_px", dot.pixel.x()},
+                                    {"v_px", dot.pixel.y()},
+                                    {"offset_px", pair.residual_px}});
+  }
   json["time_ms"] = {{"extract", solution.times.extract_ms},
                      {"identify", solution.times.identify_ms},
                      {"attitude", solution.times.attitude_ms}};
@@ -96,6 +113,12 @@ void write_annotated(const std::string& file, const ImageView& image, const Rig&
     Mark& mark = marks[pair.pairing.dot];
     mark.kind = pair.used ? MarkKind::kPaired : MarkKind::kCulled;
     mark.label = star_label(pair.pairing.entry).view();
+  }
+  for (const SolvedPair& pair : solution.solar) {
+    if (pair.pairing.camera != camera) continue;
+    Mark& mark = marks[pair.pairing.dot];
+    mark.kind = MarkKind::kSolar;
+    mark.label = solar_body_name(pair.pairing.entry);
   }
   annotation.marks = std::move(marks);
   annotation.title = std::string(rig.cameras[camera].name.view());

@@ -27,6 +27,7 @@ class FrameSource final : public Component {
   Out<Pairings> pairings;
   Out<AttitudeEstimate> attitude;
   Out<PoseEstimates> poses;
+  Out<UnknownObjects> objects;
   Out<ImageChunk> image;
   Out<HealthReport> health;
   Out<TimingReport> timing;
@@ -106,6 +107,7 @@ int bench_blocked(int argc, char** argv) {
   telemetry.pairings.bind(frame.pairings);
   telemetry.attitude.bind(frame.attitude);
   telemetry.poses.bind(frame.poses);
+  telemetry.objects.bind(frame.objects);
   telemetry.image.bind(frame.image);
   telemetry.health.bind(frame.health);
   telemetry.timing.bind(frame.timing);

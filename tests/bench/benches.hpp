@@ -21,5 +21,6 @@ int bench_pose(int argc, char** argv);
 int bench_render(int argc, char** argv);
 int bench_steps(int argc, char** argv);
 int bench_target_identification(int argc, char** argv);
+int bench_track(int argc, char** argv);
 
 }  // namespace omma

@@ -39,6 +39,8 @@ constexpr Bench kBenches[] = {
     {"steps", omma::bench_steps, "what the scheduler adds to an empty step"},
     {"target_identification", omma::bench_target_identification,
      "targets from an unlabelled cloud of dots: solved, wrong, left open, time"},
+    {"track", omma::bench_track,
+     "tracking at 10 deg/s and at the limit; identities over ten minutes with card, planets and objects"},
 };
 
 }  // namespace

@@ -205,6 +205,130 @@ TEST(Imaging, StepsAllocateNothing) {
   EXPECT_EQ(bench.imaging.chunk->image, 3U);
 }
 
+/// Steps until a picture is sent; its pixels.
+std::vector<std::uint8_t> whole_picture(Bench& bench) {
+  std::vector<std::uint8_t> picture;
+  for (int step = 0; step < 2000; ++step) {
+    bench.imaging.step({});
+    const ImageChunk& chunk = *bench.imaging.chunk;
+    if (!chunk.valid) continue;
+    picture.resize(std::size_t{chunk.width} * chunk.height);
+    const std::span<std::uint8_t> rows(picture.data() + std::size_t{chunk.first_row} * chunk.width,
+                                       std::size_t{chunk.rows} * chunk.width);
+    const std::span<const std::uint8_t> bytes(chunk.pixels.data(), chunk.bytes);
+    if (chunk.encoding == ImageEncoding::kGrey)
+      std::copy(bytes.begin(), bytes.end(), rows.begin());
+    else
+      EXPECT_TRUE(decode_rows(bytes, chunk.width, chunk.rows, rows));
+    if (chunk.first_row + chunk.rows == chunk.height) return picture;
+  }
+  ADD_FAILURE() << "no picture";
+  return picture;
+}
+
+TEST(Imaging, CompressedIsTheSamePictureInFewerChunks) {
+  std::vector<std::vector<std::uint8_t>> pictures;
+  std::vector<int> steps;
+  for (const bool compress : {false, true}) {
+    ImagingParameters parameters = small_panorama();
+    parameters.compress = compress;
+    Bench bench(parameters);
+    bench.take(1, Eigen::Quaterniond::Identity());
+    pictures.push_back(whole_picture(bench));
+    int count = 1;
+    do {
+      bench.imaging.step({});
+      ++count;
+    } while (bench.imaging.chunk->first_row + bench.imaging.chunk->rows < 256);
+    steps.push_back(count);
+  }
+  EXPECT_EQ(pictures[0], pictures[1]);
+  EXPECT_LT(steps[1], steps[0] / 2);
+}
+
+TEST(Imaging, ADarkestCompositeLosesALightThatPasses) {
+  ImagingParameters parameters = small_panorama();
+  parameters.composite = ImageComposite::kDarkest;
+  parameters.composed = 3;
+  parameters.composed_rows = 64;
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  std::vector<std::uint8_t> plain;
+  {
+    Bench single(small_panorama());
+    single.take(1, Eigen::Quaterniond::Identity());
+    plain = whole_picture(single);
+  }
+  // A light over the whole second pass: the second camera full.
+  const std::vector<std::uint16_t> kept = bench.images.pixels[1];
+  for (int step = 0; step < 12; ++step) {
+    if (step == 4)
+      std::fill(bench.images.pixels[1].begin(), bench.images.pixels[1].end(), std::uint16_t{4095});
+    if (step == 8) bench.images.pixels[1] = kept;
+    bench.imaging.step({});
+    EXPECT_FALSE(bench.imaging.chunk->valid) << step;
+  }
+  EXPECT_EQ(whole_picture(bench), plain);
+  EXPECT_EQ(bench.imaging.chunk->composite, ImageComposite::kDarkest);
+  EXPECT_EQ(bench.imaging.chunk->composed, 3);
+}
+
+TEST(Imaging, APictureAskedForIsMadeOnceThenTheMissionsAgain) {
+  Bench bench(small_panorama());
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  EXPECT_TRUE(bench.imaging.request({ImageKind::kFisheyeJ2000, 0.3, -0.2, 2.0}));
+  EXPECT_TRUE(bench.imaging.request({ImageKind::kView, 0.3, -0.2, 3.5}));  // wider than a pinhole sees
+  whole_picture(bench);
+  EXPECT_EQ(bench.imaging.chunk->kind, ImageKind::kPanoramaJ2000) << "the one begun is ended first";
+  const std::vector<std::uint8_t> fisheye = whole_picture(bench);
+  EXPECT_EQ(bench.imaging.chunk->kind, ImageKind::kFisheyeJ2000);
+  EXPECT_EQ(bench.imaging.chunk->width, 512);
+  const Eigen::Vector3d ahead = pan_tilt(0.3, -0.2) * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(fisheye[256 * 512 + 256], companded(smooth_sky(ahead), FisheyeSettings{}.white), 2);
+  EXPECT_EQ(fisheye[0], 0) << "outside the disc";
+  whole_picture(bench);
+  EXPECT_EQ(bench.imaging.chunk->kind, ImageKind::kPanoramaJ2000);
+  EXPECT_EQ(bench.imaging.refused_requests(), 1U);
+}
+
+TEST(Imaging, APartOfACamerasImageIsItsPixels) {
+  ImagingParameters parameters;
+  parameters.kind = ImageKind::kCamera;
+  parameters.region = {1, 100, 120, 64, 48};
+  Bench bench(parameters);
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.images.pixels[1][130U * 341U + 110U] = 4095;
+  bench.attitude->valid = false;  // none is needed
+  const std::vector<std::uint8_t> part = whole_picture(bench);
+  ASSERT_EQ(part.size(), 64U * 48U);
+  EXPECT_EQ(part[10 * 64 + 10], 255);
+  EXPECT_EQ(part[0], companded(bench.images.pixels[1][120U * 341U + 100U] / 4095.0, 1.0));
+  EXPECT_EQ(bench.imaging.chunk->camera, 1);
+  EXPECT_EQ(bench.imaging.chunk->left, 100);
+  parameters.region.left = 300;
+  EXPECT_THROW(Imaging(parameters, testing::tetrahedral_rig()), std::invalid_argument);
+}
+
+TEST(Imaging, CompositesRequestsAndCompressionAllocateNothing) {
+  if (!memory_guard::installed()) GTEST_SKIP() << "sanitizers bring a malloc of their own";
+  ImagingParameters parameters = small_panorama();
+  parameters.composite = ImageComposite::kMean;
+  parameters.composed = 2;
+  parameters.composed_rows = 64;
+  parameters.compress = true;
+  Bench bench(parameters);
+  bench.take(1, rotation_exp(Eigen::Vector3d(0.2, 0.3, 0.1)));
+  const std::uint64_t before = memory_guard::violations().total();
+  for (int step = 0; step < 60; ++step) {
+    const RealTimeScope scope;
+    if (step == 5) bench.imaging.request({ImageKind::kView, 0.1, 0.2, 1.0});
+    bench.imaging.step({});
+  }
+  EXPECT_EQ(memory_guard::violations().total(), before);
+  EXPECT_GT(bench.imaging.chunk->image, 2U);
+}
+
 TEST(Imaging, RefusesARowLongerThanAChunk) {
   ImagingParameters parameters;
   parameters.panorama.width = 16384;

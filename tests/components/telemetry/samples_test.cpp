@@ -111,6 +111,43 @@ TEST_F(Samples, StarsResidualIsInSigmaAtThePublishedAttitude) {
   EXPECT_EQ(cameras[1].dots._buffer[1].role, omma_DOT_UNPAIRED);
 }
 
+TEST_F(Samples, PlanetsAndObjectsNameTheirDots) {
+  const auto cameras = filled_dots();
+  Pairing planet = star_pair();
+  planet.dot = 1;
+  planet.entry = 3;
+  planet.persistence = 7;
+  planet.since_ns = lists_->time_ns - 2'000'000'000;
+  lists_->cameras[1].time_ns = lists_->time_ns;
+  pairings_->sky.solar.push_back(planet);
+  AttitudeEstimate attitude;
+  claim(pairings_->sky, attitude, filled_dots());
+  UnknownObjects objects;
+  UnknownObject object;
+  object.number = 42;
+  object.sightings = 9;
+  object.bearing.seen = true;
+  object.bearing.dot.fill(-1);
+  object.bearing.dot[1] = 0;
+  object.bearing.flux = 12;
+  objects.frame = 12;
+  objects.valid = true;
+  objects.objects.push_back(object);
+  claim(objects, cameras);
+  const omma_Dot* dots = cameras[1].dots._buffer;
+  EXPECT_EQ(dots[1].role, omma_DOT_SOLAR_BODY);
+  EXPECT_EQ(dots[1].entry, 3);
+  EXPECT_EQ(dots[1].persistence, 7U);
+  EXPECT_NEAR(dots[1].age_s, 2, 1e-6);
+  EXPECT_EQ(dots[0].role, omma_DOT_OBJECT);
+  EXPECT_EQ(dots[0].entry, 42);
+  fill(objects, report_->objects);
+  ASSERT_EQ(report_->objects.objects._length, 1U);
+  EXPECT_EQ(report_->objects.objects._buffer[0].number, 42U);
+  EXPECT_EQ(report_->objects.objects._buffer[0].cameras, 2);
+  EXPECT_TRUE(report_->objects.objects._buffer[0].seen);
+}
+
 TEST_F(Samples, TargetsResidualIsSeenFromTheCamera) {
   const auto cameras = filled_dots();
   BodyPairings body;

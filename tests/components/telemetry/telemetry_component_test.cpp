@@ -49,6 +49,7 @@ class VisionChain final : public Component {
   Out<Pairings> pairings;
   Out<AttitudeEstimate> attitude;
   Out<PoseEstimates> poses;
+  Out<UnknownObjects> objects;
   Out<ImageChunk> image;
   Out<HealthReport> health;
   Out<TimingReport> timing;
@@ -101,6 +102,7 @@ class VisionChain final : public Component {
     image->frame = n;
     image->width = 64;
     image->rows = 4;
+    image->bytes = 256;
     image->pixels[255] = static_cast<std::uint8_t>(n);
     if (n % 10 == 0) {
       health->time_ns = time;
@@ -127,6 +129,7 @@ struct Flight {
     telemetry.pairings.bind(chain.pairings);
     telemetry.attitude.bind(chain.attitude);
     telemetry.poses.bind(chain.poses);
+    telemetry.objects.bind(chain.objects);
     telemetry.image.bind(chain.image);
     telemetry.health.bind(chain.health);
     telemetry.timing.bind(chain.timing);

@@ -82,6 +82,48 @@ TEST_F(MissionFile, WithAFilterThatDoesNotExistIsRefused) {
   EXPECT_THAT(message(), HasSubstr("filter: expected \"none\" or \"mekf\", found ekf"));
 }
 
+TEST_F(MissionFile, MayAskForACompositeOfPartOfTheSkyCompressed) {
+  replace("demo.toml", "[imaging]",
+          "[imaging]\nkind = \"fisheye_j2000\"\npan_deg = 90\ncomposite = \"darkest\"\ncomposed = "
+          "12\ncompress = true");
+  const Mission mission = read_mission(file());
+  EXPECT_EQ(mission.imaging.kind, ImageKind::kFisheyeJ2000);
+  EXPECT_EQ(mission.imaging.composite, ImageComposite::kDarkest);
+  EXPECT_EQ(mission.imaging.composed, 12);
+  EXPECT_TRUE(mission.imaging.compress);
+  EXPECT_NEAR(mission.imaging.pan, 1.5708, 1e-4);
+}
+
+TEST_F(MissionFile, WithAPictureThatCannotBeMadeIsRefused) {
+  replace("demo.toml", "[imaging]", "[imaging]\nkind = \"mercator\"");
+  EXPECT_THAT(message(), HasSubstr("imaging.kind: expected \"panorama_j2000\", \"panorama_rig\", \"view\", "
+                                   "\"fisheye_j2000\", \"fisheye_rig\" or \"camera\", found mercator"));
+  SetUp();
+  replace("demo.toml", "[imaging]", "[imaging]\ncomposed = 5");
+  EXPECT_THAT(message(), HasSubstr("imaging.composed: expected "));
+  SetUp();
+  replace("demo.toml", "[imaging]",
+          "[imaging]\nkind = \"camera\"\ncamera = \"cam1\"\nregion_px = [0, 0, 9, 9]");
+  EXPECT_THAT(message(), HasSubstr("imaging.camera: expected a camera of the rig dissertation, found cam1"));
+  SetUp();
+  replace("demo.toml", "[imaging]",
+          "[imaging]\nkind = \"camera\"\ncamera = \"cam2\"\nregion_px = [600, 0, 64, 9]");
+  EXPECT_THAT(message(),
+              HasSubstr("imaging.region_px: expected left, top, width, height within 640 x 480, found "
+                        "a region beyond it"));
+}
+
+TEST_F(MissionFile, WithSurveillanceThatCannotBeIsRefused) {
+  replace("demo.toml", "[imaging]", "[surveillance]\nlargest_rate_deg_s = 1.5\npatience = 20\n\n[imaging]");
+  EXPECT_EQ(read_mission(file()).surveillance.patience, 20);
+  SetUp();
+  replace("demo.toml", "[imaging]", "[surveillance]\nlargest_rate_deg_s = 0\n\n[imaging]");
+  EXPECT_THAT(message(), HasSubstr("surveillance.largest_rate_deg_s: expected "));
+  SetUp();
+  replace("demo.toml", "[imaging]", "[surveillance]\nradar = true\n\n[imaging]");
+  EXPECT_THAT(message(), HasSubstr("surveillance.radar: expected "));
+}
+
 TEST_F(MissionFile, ThatIsMissingIsNamed) {
   std::filesystem::remove(file());
   EXPECT_THAT(message(), HasSubstr("demo.toml: "));

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "components/catalogue/solar_system.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/photographs.hpp"
@@ -51,6 +52,19 @@ TEST(Photographs, LongyearbyenIsSolvedWithAndWithoutEpochAndSite) {
     expect_right(photograph, solution);
     EXPECT_GE(solution.stars_used, 60) << photograph.name;
   }
+}
+
+// Of the planets only Mars stood above the horizon and bright enough, south of the zenith.
+TEST(Photographs, MarsIsNamedOverLongyearbyen) {
+  const auto all = shared(PhotographGroup::kLongyearbyen);
+  OMMA_NEEDS(all);
+  const auto solution = solved(all[0]);
+  ASSERT_EQ(solution.solar.size(), 1U);
+  EXPECT_EQ(solution.solar[0].pairing.entry, static_cast<std::uint16_t>(SolarBody::kMars));
+  EXPECT_LT(solution.solar[0].residual_px, 1.0);
+  for (const ground::SolvedPair& pair : solution.pairs)
+    EXPECT_FALSE(pair.pairing.camera == solution.solar[0].pairing.camera &&
+                 pair.pairing.dot == solution.solar[0].pairing.dot);
 }
 
 TEST(Photographs, EpochAndSiteMakeTheLongyearbyenResidualsSmaller) {

@@ -1,0 +1,54 @@
+#include "components/imaging/fisheye_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace omma {
+
+FisheyeView::FisheyeView(const FisheyeSettings& settings)
+    : settings_(settings), angle_per_pixel_(settings.field / std::max(settings.size, 1)) {
+  if (settings.size <= 0) throw std::invalid_argument("fisheye view: the size must be positive");
+  if (!(settings.field > 0) || !(settings.field <= 2 * std::numbers::pi + 1e-9))
+    throw std::invalid_argument("fisheye view: the field must be between 0 and 360 degrees");
+  if (!(settings.white > 0)) throw std::invalid_argument("fisheye view: white must be positive");
+}
+
+bool FisheyeView::project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) const noexcept {
+  const double across = std::hypot(direction.x(), direction.y());
+  const double angle = std::atan2(across, direction.z());
+  if (angle > 0.5 * settings_.field) return false;
+  const double radius = across > 0 ? angle / angle_per_pixel_ / across : 0;
+  const double centre = 0.5 * (settings_.size - 1);
+  pixel = {centre + radius * direction.x(), centre + radius * direction.y()};
+  return true;
+}
+
+int FisheyeView::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_view,
+                             int first_row, int rows, std::span<std::uint8_t> out) const noexcept {
+  const int fitting = static_cast<int>(out.size() / static_cast<std::size_t>(size()));
+  const int made = std::clamp(std::min(rows, fitting), 0, std::max(size() - first_row, 0));
+  const Eigen::Matrix3d rotation = rig_from_view.toRotationMatrix();
+  const std::array<int, limits::kCameras> boxes = mosaic.boxes(angle_per_pixel_);
+  const double centre = 0.5 * (size() - 1);
+  for (int row = 0; row < made; ++row) {
+    std::uint8_t* pixels = out.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(size());
+    const double y = first_row + row - centre;
+    for (int column = 0; column < size(); ++column) {
+      const double x = column - centre;
+      const double radius = std::hypot(x, y);
+      const double angle = radius * angle_per_pixel_;
+      if (angle > 0.5 * settings_.field) {
+        pixels[column] = 0;
+        continue;
+      }
+      const double s = radius > 0 ? std::sin(angle) / radius : 0;
+      const Eigen::Vector3d ray(s * x, s * y, std::cos(angle));
+      pixels[column] = companded(mosaic.light(rotation * ray, images, boxes, nullptr), settings_.white);
+    }
+  }
+  return made;
+}
+
+}  // namespace omma

@@ -1,0 +1,64 @@
+// Picture: what is to be seen of the sky, and its rows made on demand: a panorama, a view, a fisheye, or a
+// part of one camera's image. One small type, so that a picture can be asked for while flying.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
+
+#include "components/imaging/fisheye_view.hpp"
+#include "components/imaging/image_chunk.hpp"
+#include "components/imaging/panorama.hpp"
+#include "components/imaging/view.hpp"
+
+namespace omma {
+
+/// A part of one camera's image.
+struct CameraRegion {
+  int camera = 0;  ///< index in the rig
+  int left = 0;    ///< [px]
+  int top = 0;
+  int width = 320;
+  int height = 240;
+};
+
+struct PictureSettings {
+  ImageKind kind = ImageKind::kPanoramaJ2000;
+  PanoramaSettings panorama;  ///< for the panoramas
+  ViewSettings view;          ///< for kView
+  FisheyeSettings fisheye;    ///< for the fisheyes
+  CameraRegion region;        ///< for kCamera
+  double pan = 0;   ///< of view and fisheye: right ascension, or azimuth about the rig's +z from +x [rad]
+  double tilt = 0;  ///< declination, or height above the rig's x-y plane [rad]
+};
+
+class Picture {
+ public:
+  /// @throws std::invalid_argument as Panorama, View and FisheyeView, and for a region that is no part of the
+  /// image
+  Picture(const PictureSettings& settings, const Mosaic& mosaic);
+
+  const PictureSettings& settings() const noexcept { return settings_; }
+  int width() const noexcept;
+  int height() const noexcept;
+  bool fixed_to_sky() const noexcept;
+  /// Another picture of the same sizes. @param kind  not kCamera
+  /// @param field  of a view (below π) or a fisheye (to 2π) [rad]; of no meaning for panoramas
+  /// @return false (and nothing changed) where it cannot be
+  bool change(ImageKind kind, double pan, double tilt, double field) noexcept;
+
+  /// As Panorama::render_rows. @param rig_from_j2000  not used where the picture is fixed to the rig
+  int render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_j2000,
+                  int first_row, int rows, std::span<std::uint8_t> out, OverlapSums* sums) const noexcept;
+
+ private:
+  int copy_rows(const Mosaic& mosaic, RigImages images, int first_row, int rows,
+                std::span<std::uint8_t> out) const noexcept;
+
+  PictureSettings settings_;
+  Panorama panorama_;
+  View view_;
+  FisheyeView fisheye_;
+};
+
+}  // namespace omma

@@ -1,0 +1,112 @@
+// Every picture as a PNG; rows that did not come down are hatched, and the table says how many.
+#include "ground/images/images.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "fsw/kernel/input_error.hpp"
+#include "ground/recording.hpp"
+#include "ground/report/chunk_pictures.hpp"
+#include "hal/recorded/image_file.hpp"
+
+namespace omma::ground {
+namespace {
+
+constexpr int kHatchPeriod = 16;  // [px]
+constexpr std::uint8_t kHatchGrey = 96;
+
+struct Arguments {
+  std::string recording;
+  std::string out = ".";
+};
+
+const char* name_of(omma_ImageKind kind) {
+  static constexpr std::array kNames{"panorama_j2000", "panorama_rig", "view",
+                                     "fisheye_j2000",  "fisheye_rig",  "camera"};
+  const auto i = static_cast<std::size_t>(kind);
+  return i < kNames.size() ? kNames[i] : "unknown";
+}
+
+const char* name_of(omma_ImageComposite composite) {
+  static constexpr std::array kNames{"single", "mean", "darkest", "brightest"};
+  const auto i = static_cast<std::size_t>(composite);
+  return i < kNames.size() ? kNames[i] : "unknown";
+}
+
+/// A gap in the link is not to look like a gap in the sky.
+GreyPicture with_gaps_hatched(const ChunkPicture& picture) {
+  GreyPicture shown = picture.picture;
+  for (int v = 0; v < shown.height; ++v) {
+    if (picture.rows[static_cast<std::size_t>(v)]) continue;
+    for (int u = 0; u < shown.width; ++u) {
+      if ((u + v) % kHatchPeriod < 2)
+        shown.pixels[static_cast<std::size_t>(v) * static_cast<std::size_t>(shown.width) +
+                     static_cast<std::size_t>(u)] = kHatchGrey;
+    }
+  }
+  return shown;
+}
+
+std::string file_name(std::uint32_t number, const ChunkPicture& picture) {
+  std::array<char, 80> name{};
+  std::snprintf(name.data(), name.size(), "%05u_%s%s%s.png", number, name_of(picture.kind),
+                picture.composite == omma_COMPOSITE_SINGLE ? "" : "_",
+                picture.composite == omma_COMPOSITE_SINGLE ? "" : name_of(picture.composite));
+  return name.data();
+}
+
+void write(const std::filesystem::path& file, const ChunkPicture& picture) {
+  const GreyPicture shown = with_gaps_hatched(picture);
+  ImageView view;
+  view.data = reinterpret_cast<const std::byte*>(shown.pixels.data());
+  view.width = shown.width;
+  view.height = shown.height;
+  view.stride = shown.width;
+  write_png(file, view);
+}
+
+int images(const Arguments& arguments) {
+  Recording recording(arguments.recording);
+  ChunkPictures pictures;
+  recording.for_each<omma_ImageChunk>([&](const omma_ImageChunk& chunk) { pictures.take(chunk); });
+  if (!recording.damage().empty()) std::fprintf(stderr, "omma: %s\n", recording.damage().c_str());
+  if (pictures.pictures().empty())
+    throw InputError(arguments.recording, 0, "image_chunk", "a picture at least", "none");
+  std::error_code error;
+  std::filesystem::create_directories(arguments.out, error);
+  std::printf(
+      "image  kind            of          size px    frame sets      rows lost   bytes / pixel  file\n");
+  bool whole = true;
+  for (const auto& [number, picture] : pictures.pictures()) {
+    const int lost = picture.picture.height - picture.rows_there();
+    const std::string name = file_name(number, picture);
+    write(std::filesystem::path(arguments.out) / name, picture);
+    whole = whole && lost == 0;
+    const double pixels = static_cast<double>(picture.rows_there()) * picture.picture.width;
+    std::printf("%5u  %-14s  %-9s%3d  %5d x %-5d %6llu to %-6llu  %5d       %6.3f         %s\n", number,
+                name_of(picture.kind), name_of(picture.composite), picture.composed, picture.picture.width,
+                picture.picture.height, static_cast<unsigned long long>(picture.first_frame),
+                static_cast<unsigned long long>(picture.last_frame), lost,
+                static_cast<double>(picture.bytes) / pixels, name.c_str());
+  }
+  if (pictures.refused() > 0)
+    std::fprintf(stderr, "omma: %llu chunks contradict themselves or their picture and were left out\n",
+                 static_cast<unsigned long long>(pictures.refused()));
+  return whole && pictures.refused() == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void add_images(CLI::App& app, CommandContext& context) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "images", "Pictures of a recording, put together from their chunks; exit code 1 where rows are lost");
+  command->add_option("recording", arguments->recording, "recording (MCAP)")->required();
+  command->add_option("--out", arguments->out, "folder for the PNG files");
+  command->callback([arguments, &context] { context.exit_code = images(*arguments); });
+}
+
+}  // namespace omma::ground

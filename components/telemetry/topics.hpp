@@ -24,8 +24,9 @@ enum class TopicId : std::uint8_t {
   kUtc,
   kEvent,
   kImageChunk,
+  kMotion,
 };
-inline constexpr std::size_t kTopicCount = 10;
+inline constexpr std::size_t kTopicCount = 11;
 
 /// How a topic travels over DDS.
 enum class Delivery : std::uint8_t {
@@ -95,6 +96,10 @@ struct TopicOf<omma_Event> {
 template <>
 struct TopicOf<omma_ImageChunk> {
   static constexpr TopicId id = TopicId::kImageChunk;
+};
+template <>
+struct TopicOf<omma_Motion> {
+  static constexpr TopicId id = TopicId::kMotion;
 };
 
 }  // namespace omma::telemetry

@@ -1,10 +1,11 @@
 # What is installed, and the Debian package of the flight program (`cpack -G DEB`, `./build-arm64 package`).
 include(GNUInstallDirs)
 install(TARGETS omma-fsw DESTINATION bin)
-install(DIRECTORY config/lenses config/rigs config/targets DESTINATION share/omma)
-install(FILES config/demo.toml config/demo_scenario.toml DESTINATION share/omma)
+install(DIRECTORY config/lenses config/rigs config/targets config/gimbals config/trajectories DESTINATION share/omma)
+install(FILES config/demo.toml config/demo_scenario.toml config/lab.toml DESTINATION share/omma)
 install(FILES docs/porting.md docs/interfaces.md LICENSE DESTINATION share/doc/omma-fsw)
 install(FILES config/omma-fsw.service DESTINATION /lib/systemd/system)
+install(FILES config/60-omma-fsw.rules DESTINATION /lib/udev/rules.d)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME omma-fsw)
@@ -20,5 +21,5 @@ elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL arm)
   set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE armhf)
 endif()
 # The packages of the libraries it is linked with; scripts/package_depends.sh holds this list to the program.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libcfitsio10, libddsc0debian, liberfa1, libgcc-s1, libjpeg62-turbo, libspng0, libstdc++6, libtomlplusplus3, libyaml-cpp0.7, libzstd1")
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6, libcfitsio10, libddsc0debian, liberfa1, libgcc-s1, libgpiod2, libjpeg62-turbo, libspng0, libstdc++6, libtomlplusplus3, libyaml-cpp0.7, libzstd1")
 include(CPack)

@@ -19,6 +19,7 @@
 #include "ground/feed/feed.hpp"
 #include "ground/images/images.hpp"
 #include "ground/monitor/monitor.hpp"
+#include "ground/motion/motion.hpp"
 #include "ground/objects/objects.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
@@ -51,6 +52,8 @@ int main(int argc, char** argv) {
   omma::ground::add_design(app, context);
   omma::ground::add_predict(app, context);
   omma::ground::add_experiment(app, context);
+  omma::ground::add_motion(app, context);
+  omma::ground::add_servo_board(app, context);
   omma::ground::add_stars(app, context);
   omma::ground::add_dots(app, context);
   try {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace omma {
 
@@ -18,6 +20,11 @@ class ServoDriver {
   virtual bool set_target(int channel, QuarterMicroseconds pulse) noexcept = 0;
   /// Emergency stop: ends the pulses of all channels, so that no servo is driven any more.
   virtual bool stop() noexcept = 0;
+  /// From an ordinary thread, a few times a second, beside the commands: what takes time, as opening a board
+  /// that was unplugged or asking it for its errors.
+  virtual void attend() noexcept {}
+  /// After the run: what went wrong, counted and named, a sentence each.
+  virtual std::vector<std::string> complaints() const { return {}; }
 };
 
 }  // namespace omma

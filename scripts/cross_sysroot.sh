@@ -7,7 +7,7 @@ architecture=$1
 sysroot=$(realpath -m "$2")
 work=$sysroot.apt
 packages="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev cyclonedds-dev libtomlplusplus-dev libspng-dev
-  libjpeg62-turbo-dev libcfitsio-dev libyaml-cpp-dev libzstd-dev liberfa-dev libcli11-dev nlohmann-json3-dev libncurses-dev
+  libjpeg62-turbo-dev libcfitsio-dev libyaml-cpp-dev libzstd-dev liberfa-dev libgpiod-dev libcli11-dev nlohmann-json3-dev libncurses-dev
   libcairo2-dev libopencv-calib3d-dev libgtest-dev libgmock-dev libbenchmark-dev"
 [ -e "$sysroot/.complete" ] && [ "$(cat "$sysroot/.complete")" = "$packages" ] && exit 0
 

@@ -70,15 +70,20 @@ AxisState AxisSpline::at(double time) const noexcept {
 }
 
 AxisExtremes AxisSpline::extremes() const noexcept {
-  AxisExtremes result{pieces_.front().a, pieces_.front().a, 0, 0};
+  const Piece& first = pieces_.front();
+  AxisExtremes result{{first.a, first.start}, {first.a, first.start}, {0, first.start}, {0, first.start}};
+  const auto raise = [](Extreme& extreme, double value, double time) {
+    if (value > extreme.value) extreme = {value, time};
+  };
   for (const Piece& piece : pieces_) {
     const auto visit = [&](double s) {
       if (!(s >= 0 && s <= piece.length)) return;  // also where s is not a number: no such extreme
       const AxisState state = piece.at(s);
-      result.lowest_angle = std::min(result.lowest_angle, state.angle);
-      result.highest_angle = std::max(result.highest_angle, state.angle);
-      result.largest_speed = std::max(result.largest_speed, std::abs(state.speed));
-      result.largest_acceleration = std::max(result.largest_acceleration, std::abs(state.acceleration));
+      const double time = piece.start + s;
+      if (state.angle < result.lowest_angle.value) result.lowest_angle = {state.angle, time};
+      raise(result.highest_angle, state.angle, time);
+      raise(result.largest_speed, std::abs(state.speed), time);
+      raise(result.largest_acceleration, std::abs(state.acceleration), time);
     };
     visit(0);
     visit(piece.length);

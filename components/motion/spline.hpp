@@ -19,12 +19,18 @@ struct AxisState {
   double acceleration = 0;  ///< [rad/s²]
 };
 
+/// A value and when it is reached.
+struct Extreme {
+  double value = 0;
+  double time = 0;  ///< [s]
+};
+
 /// What a trajectory asks of its axis at most, over all times and not only at samples.
 struct AxisExtremes {
-  double lowest_angle = 0;          ///< [rad]
-  double highest_angle = 0;         ///< [rad]
-  double largest_speed = 0;         ///< magnitude [rad/s]
-  double largest_acceleration = 0;  ///< magnitude [rad/s²]
+  Extreme lowest_angle;          ///< [rad]
+  Extreme highest_angle;         ///< [rad]
+  Extreme largest_speed;         ///< magnitude [rad/s]
+  Extreme largest_acceleration;  ///< magnitude [rad/s²]
 };
 
 class AxisSpline {
@@ -37,6 +43,8 @@ class AxisSpline {
   /// At `time` [s]; before the first and after the last key point the axis rests there. Never allocates.
   AxisState at(double time) const noexcept;
   AxisExtremes extremes() const noexcept;
+  double first_time() const noexcept { return pieces_.front().start; }                        ///< [s]
+  double last_time() const noexcept { return pieces_.back().start + pieces_.back().length; }  ///< [s]
 
  private:
   /// angle(s) = a + b s + c s² + d s³, s from the start of the piece

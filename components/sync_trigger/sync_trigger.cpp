@@ -5,7 +5,15 @@ namespace omma {
 void SyncTrigger::step(const Tick& tick) noexcept {
   trigger->number = next_++;
   trigger->time_ns = tick.time_ns;
-  if (driver_ != nullptr && !driver_->pulse(trigger->number, trigger->time_ns)) ++failures_;
+  trigger->sent = false;
+  if (driver_ == nullptr) return;
+  if (const auto edge_ns = driver_->pulse(trigger->number, tick.time_ns)) {
+    trigger->time_ns = *edge_ns;
+    trigger->sent = true;
+    return;
+  }
+  ++failures_;
+  events_.raise<kPulseNotSent>(tick, trigger->number, failures_);
 }
 
 }  // namespace omma

@@ -11,7 +11,8 @@ static_assert(limits::kCameras <= omma_MAX_CAMERAS && limits::kDotsPerCamera <= 
               limits::kNameLength <= omma_MAX_NAME && limits::kComponents <= omma_MAX_COMPONENTS &&
               limits::kRateGroups <= omma_MAX_GROUPS && limits::kEventValues <= omma_MAX_EVENT_VALUES &&
               limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES &&
-              limits::kUnknownObjects <= omma_MAX_OBJECTS && kFrameStages <= omma_MAX_STAGES);
+              limits::kUnknownObjects <= omma_MAX_OBJECTS && kFrameStages <= omma_MAX_STAGES &&
+              kMostAxes <= omma_MAX_AXES);
 
 template <class Sequence, class Storage>
 void lead_to(Sequence& sequence, Storage* storage, std::size_t room) {
@@ -33,6 +34,8 @@ FrameReport::FrameReport(const TelemetryNames& names)
   lead_to(image_chunk.pixels, pixels_.data(), pixels_.size());
   lead_to(objects.objects, objects_.data(), objects_.size());
   lead_to(health.groups, groups_.data(), groups_.size());
+  lead_to(motion.axes, axes_.data(), names.axes.size());
+  for (std::size_t i = 0; i < names.axes.size(); ++i) set_text(axes_[i].name, names.axes[i].view());
   lead_to(timing.steps, steps_.data(), steps_.size());
   lead_to(frame_timing.stages, stages_.data(), stages_.size());
   for (EventSample& event : events)

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "components/motion/motion_report.hpp"
 #include "components/telemetry/frame_stages.hpp"
 #include "components/telemetry/topics.hpp"
 #include "config/limits.hpp"
@@ -19,6 +20,7 @@ namespace omma::telemetry {
 struct TelemetryNames {
   StaticVector<Name, limits::kCameras> cameras;
   StaticVector<Name, limits::kTargetBodies> bodies;
+  StaticVector<Name, kMostAxes> axes;  ///< in the order of the gimbal; none where there is none
 };
 
 /// An event on its way: the numbers; its name and its sentence are made off the real-time path.
@@ -42,7 +44,7 @@ class FrameReport {
     const void* sample = nullptr;
     EventSample* event = nullptr;
   };
-  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + 1 + kEvents +
+  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 3 + kEvents +
                                           3;  // as the members below, but frame_timing
   StaticVector<Entry, kEntries> entries;      ///< in the order they are sent
 
@@ -55,6 +57,7 @@ class FrameReport {
   std::array<EventSample, kEvents> events{};
   omma_Health health{};
   omma_Timing timing{};
+  omma_Motion motion{};
   omma_UtcCorrelation utc{};
 
   // Completed and sent last by the telemetry thread, where the frame set's way ends.
@@ -71,6 +74,7 @@ class FrameReport {
   std::array<omma_GroupHealth, limits::kRateGroups> groups_{};
   std::array<omma_StepTiming, limits::kComponents> steps_{};
   std::array<omma_StageTiming, kFrameStages> stages_{};
+  std::array<omma_AxisCommand, kMostAxes> axes_{};
 };
 
 }  // namespace omma::telemetry

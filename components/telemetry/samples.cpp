@@ -45,6 +45,12 @@ static_assert(omma_COMPOSITE_MEAN == static_cast<int>(ImageComposite::kMean));
 static_assert(omma_COMPOSITE_DARKEST == static_cast<int>(ImageComposite::kDarkest));
 static_assert(omma_COMPOSITE_BRIGHTEST == static_cast<int>(ImageComposite::kBrightest));
 static_assert(omma_ENCODING_PREDICTED_ZSTD == static_cast<int>(ImageEncoding::kPredictedZstd));
+static_assert(omma_MOTION_APPROACHING == static_cast<int>(MotionMode::kApproaching));
+static_assert(omma_MOTION_RUNNING == static_cast<int>(MotionMode::kRunning));
+static_assert(omma_MOTION_FINISHED == static_cast<int>(MotionMode::kFinished));
+static_assert(omma_MOTION_HOMING == static_cast<int>(MotionMode::kHoming));
+static_assert(omma_MOTION_HOME == static_cast<int>(MotionMode::kHome));
+static_assert(omma_MOTION_STOPPED == static_cast<int>(MotionMode::kStopped));
 
 omma_Quaternion quaternion(const Eigen::Quaterniond& q) noexcept {
   return {q.x(), q.y(), q.z(), q.w()};
@@ -342,6 +348,26 @@ void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {
   const std::size_t bytes = std::min<std::size_t>(chunk.pixels.size(), chunk.bytes);
   out.pixels._length = static_cast<std::uint32_t>(bytes);
   std::copy_n(chunk.pixels.begin(), bytes, out.pixels._buffer);
+}
+
+void fill(const MotionReport& motion, omma_Motion& out) noexcept {
+  out.time_ns = motion.time_ns;
+  out.valid = motion.valid;
+  out.mode = same<omma_MotionMode>(motion.mode);
+  out.trajectory_time_s = motion.trajectory_time;
+  out.late_ticks = motion.late_ticks;
+  out.refused_commands = motion.refused_commands;
+  out.board_lost = motion.board_lost;
+  const std::size_t count = std::min<std::size_t>(out.axes._maximum, motion.axes.size());
+  out.axes._length = static_cast<std::uint32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const AxisCommand& axis = motion.axes[i];
+    omma_AxisCommand& to = out.axes._buffer[i];
+    to.angle_rad = axis.state.angle;
+    to.speed_rad_s = axis.state.speed;
+    to.goal_rad = axis.goal.angle;
+    to.pulse_quarter_us = axis.pulse;
+  }
 }
 
 }  // namespace omma::telemetry

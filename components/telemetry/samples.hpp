@@ -11,6 +11,7 @@
 #include "components/camera/frames.hpp"
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
+#include "components/motion/motion_report.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/surveillance/unknown_objects.hpp"
 #include "components/telemetry/omma.h"
@@ -57,5 +58,7 @@ void fill(const TimingReport& timing, omma_Timing& out) noexcept;
 void fill(const UtcReport& utc, omma_UtcCorrelation& out) noexcept;
 /// @param out  `pixels` holds room for limits::kImageChunkBytes
 void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept;
+/// @param out  `axes` holds room for as many as the gimbal has; their names are left as they are
+void fill(const MotionReport& motion, omma_Motion& out) noexcept;
 
 }  // namespace omma::telemetry

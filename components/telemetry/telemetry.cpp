@@ -25,6 +25,7 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("health", health);
   visitor.input("timing", timing);
   visitor.input("utc", utc);
+  if (motion.source() != nullptr) visitor.input("motion", motion);
 }
 
 void Telemetry::step(const Tick& /*tick*/) noexcept {
@@ -90,9 +91,15 @@ void Telemetry::add_products(Report& report) noexcept {
   }
   telemetry::fill(*objects, report.objects);
   add(report, report.objects, numbers_[static_cast<std::size_t>(TopicId::kUnknownObjects)]);
-  if (!image->valid) return;
-  telemetry::fill(*image, report.image_chunk);
-  add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
+  if (image->valid) {
+    telemetry::fill(*image, report.image_chunk);
+    add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
+  }
+  if (motion.source() != nullptr && motion->valid) {
+    telemetry::fill(*motion, report.motion);
+    report.motion.frame = frame_;
+    add(report, report.motion, numbers_[static_cast<std::size_t>(TopicId::kMotion)]);
+  }
 }
 
 void Telemetry::add_housekeeping(Report& report) noexcept {
@@ -160,6 +167,7 @@ void Telemetry::count_dropped() noexcept {
   if (stages_ != nullptr) ++numbers_[static_cast<std::size_t>(TopicId::kFrameTiming)];
   ++numbers_[static_cast<std::size_t>(TopicId::kUnknownObjects)];
   if (image->valid) ++numbers_[static_cast<std::size_t>(TopicId::kImageChunk)];
+  if (motion.source() != nullptr && motion->valid) ++numbers_[static_cast<std::size_t>(TopicId::kMotion)];
   const std::size_t count = std::min(names_.cameras.size(), dots->cameras.size());
   for (std::size_t c = 0; c < count; ++c) ++dots_numbers_[c];
   for (const PoseEstimate& pose : poses->bodies)

@@ -24,6 +24,7 @@
 #include "components/camera/frames.hpp"
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
+#include "components/motion/motion_report.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/surveillance/unknown_objects.hpp"
 #include "components/telemetry/report_queue.hpp"
@@ -51,6 +52,7 @@ class Telemetry final : public Component {
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;
   In<UtcReport> utc;
+  In<MotionReport> motion;  // from another rate group; left unbound where nothing moves
 
   std::string_view name() const override { return "telemetry"; }
   void visit_ports(PortVisitor& visitor) const override;

@@ -22,6 +22,7 @@ const std::array<Topic, kTopicCount>& topics() noexcept {
       {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, 0, false},
       {TopicId::kImageChunk, "image_chunk", "omma::ImageChunk", &omma_ImageChunk_desc, Delivery::kStream, 1,
        0, false},
+      {TopicId::kMotion, "motion", "omma::Motion", &omma_Motion_desc, Delivery::kStream, 1, 2000, false},
   }};
   return table;
 }

@@ -25,6 +25,7 @@ enum class TopicId : std::uint8_t {
   kUtc,
   kEvent,
   kImageChunk,
+  kMotion,
 };
 inline constexpr std::size_t kTopicCount = 11;
 
@@ -100,6 +101,10 @@ struct TopicOf<omma_Event> {
 template <>
 struct TopicOf<omma_ImageChunk> {
   static constexpr TopicId id = TopicId::kImageChunk;
+};
+template <>
+struct TopicOf<omma_Motion> {
+  static constexpr TopicId id = TopicId::kMotion;
 };
 
 }  // namespace omma::telemetry

@@ -10,6 +10,7 @@
 #include "components/telemetry/dds_sink.hpp"
 #include "components/telemetry/log_sink.hpp"
 #include "components/telemetry/telemetry_output.hpp"
+#include "fsw/app/attendant.hpp"
 #include "fsw/app/flight_records.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/program_dictionary.hpp"
@@ -41,6 +42,7 @@ struct Arguments {
 
 omma::Scheduler* running = nullptr;
 omma::FlightRecords* recording = nullptr;
+omma::Motion* moving = nullptr;
 
 extern "C" void stop_running(int /*signal*/) {
   if (running != nullptr) running->stop();
@@ -48,6 +50,10 @@ extern "C" void stop_running(int /*signal*/) {
 
 extern "C" void write_trace(int /*signal*/) {
   if (recording != nullptr) recording->trace().request();
+}
+
+extern "C" void stop_moving(int /*signal*/) {
+  if (moving != nullptr) moving->emergency_stop();
 }
 
 void say(const std::vector<std::string>& sentences) {
@@ -81,7 +87,8 @@ int describe(const Arguments& arguments) {
 int fly(const Arguments& arguments) {
   omma::Mission mission = omma::read_mission(arguments.mission);
   if (!arguments.frames.empty()) mission.recording = arguments.frames;
-  const bool real_time = arguments.real_time || omma::has_live_cameras(mission);
+  const bool real_time = arguments.real_time || omma::has_live_cameras(mission) ||
+                         omma::has_trigger_line(mission) || omma::has_servo_board(mission);
   omma::Topology topology(mission,
                           {.lockstep = !real_time, .workers = arguments.workers, .rounds = arguments.rounds});
   const omma::RateGroupTable table = topology.table();
@@ -105,18 +112,29 @@ int fly(const Arguments& arguments) {
   records.add_chore([&topology] { topology.utc.ask_system(); });
   records.start();
 
+  omma::Attendant attendant;
+  if (topology.servo() != nullptr) attendant.add([&servo = *topology.servo()] { servo.attend(); });
+  if (topology.trigger_line() != nullptr)
+    attendant.add([&line = *topology.trigger_line()] { line.attend(); });
+  attendant.start();
+  moving = topology.motion ? &*topology.motion : nullptr;
   running = &scheduler;
   recording = &records;
   std::signal(SIGINT, stop_running);
   std::signal(SIGTERM, stop_running);
   std::signal(SIGUSR1, write_trace);
-  scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
+  std::signal(SIGUSR2, stop_moving);
+  scheduler.run(topology.ticks(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets()));
   running = nullptr;
   recording = nullptr;
+  moving = nullptr;
+  attendant.stop();
   output.stop();
 
   say(topology.refusals());
   say(scheduler.refusals());
+  if (topology.servo() != nullptr) say(topology.servo()->complaints());
+  if (topology.trigger_line() != nullptr) say(topology.trigger_line()->complaints());
   say(output.failures());
   say(records.stop());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);

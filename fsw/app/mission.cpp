@@ -39,6 +39,8 @@ void read_driver(const TomlTable& table, const Lens& lens, double frame_rate_hz,
   camera.driver = table.text("driver");
   if (camera.driver == "recorded") {
     camera.bits = static_cast<int>(table.integer("bits", {8, 16}, 8));
+    // What a live driver needs may stay, so that one word switches between them.
+    if (table.has("device")) read_camera_setup(table, lens.width(), lens.height(), frame_rate_hz);
     return;
   }
   std::string known = "\"recorded\"";
@@ -195,6 +197,10 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.cameras = read_cameras(root, mission.rig, mission.frame_rate_hz);
   mission.frame_delay_ms = root.number("frame_delay_ms", {0, 10000}, 0);
   if (root.has("recording")) mission.recording = root.path("recording");
+  if (const auto trigger = root.table_if("trigger"))
+    mission.trigger = read_trigger(*trigger, mission.frame_rate_hz);
+  if (const auto motion = root.table_if("motion"))
+    mission.motion = read_motion(*motion, mission.frame_rate_hz);
   mission.bodies = read_bodies(root);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   mission.tracker.observer.julian_date_utc = epoch;

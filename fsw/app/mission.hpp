@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "components/surveillance/surveillance_parameters.hpp"
 #include "components/telemetry/frame_stages.hpp"
 #include "components/tracker/tracker_parameters.hpp"
+#include "fsw/app/motion_mission.hpp"
+#include "fsw/app/trigger_mission.hpp"
 #include "hal/camera_setup.hpp"
 
 namespace omma {
@@ -37,6 +40,8 @@ struct Mission {
   double frame_delay_ms =
       0;  ///< from a live frame's stamp to the trigger that collects it; 0: found from the first
   std::filesystem::path recording;  ///< folder of recorded frames, may be empty
+  TriggerMission trigger;
+  std::optional<MotionMission> motion;  ///< where a gimbal moves
   std::vector<TargetBody> bodies;
   TrackerParameters tracker;
   AttitudeParameters attitude;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "components/camera/camera_events.hpp"
+#include "components/motion/motion.hpp"
 #include "components/telemetry/frame_latency.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/services/event.hpp"
@@ -29,7 +30,8 @@ constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
 
 /// Every event this program can raise.
 inline constexpr auto kEvents =
-    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents);
+    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents,
+           kMotionEvents, kSyncTriggerEvents, kTriggerWatchEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// One JSON object.

@@ -7,6 +7,7 @@
 namespace omma {
 namespace {
 
+constexpr int kMotionPriority = 80;
 constexpr int kVisionPriority = 60;
 constexpr int kHealthPriority = 10;
 
@@ -39,6 +40,8 @@ telemetry::TelemetryNames telemetry_names(const Mission& mission) {
   telemetry::TelemetryNames names;
   for (const RigCamera& camera : mission.rig.cameras) names.cameras.push_back(camera.name);
   for (const TargetBody& body : mission.bodies) names.bodies.push_back(body.name);
+  if (mission.motion)
+    for (const MotionAxis& axis : mission.motion->axes) names.axes.push_back(axis.axis.name);
   return names;
 }
 
@@ -49,7 +52,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       pool_(options.workers, options.lockstep ? 0 : kVisionPriority),
       catalogue_(star_catalogue(mission_)),
       drivers_(mission_, options),
-      sync_trigger(nullptr),
+      servo_(servo_driver(mission_, options)),
+      trigger_line_(trigger_driver(mission_, options, servo_.get())),
+      sync_trigger(trigger_line_.get(), events),
       cameras(drivers_.pointers(), events),
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
@@ -63,6 +68,12 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       health_to_telemetry_(health.report),
       timing_to_telemetry_(health.timing),
       utc_to_telemetry_(utc.report) {
+  if (mission_.motion) {
+    motion.emplace(MotionParameters{.axes = mission_.motion->axes, .period_ns = mission_.motion->period_ns()},
+                   *servo_, events);
+    motion_to_telemetry_.emplace(motion->report);
+  }
+  if (trigger_line_) trigger_watch.emplace(mission_.rig.cameras.size(), mission_.trigger.matching, events);
   connect();
 }
 
@@ -90,27 +101,46 @@ void Topology::connect() {
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
   telemetry.utc.bind(utc_to_telemetry_);
+  if (trigger_watch) {
+    trigger_watch->trigger.bind(sync_trigger.trigger);
+    trigger_watch->frames.bind(cameras.frames);
+  }
+  if (motion_to_telemetry_) telemetry.motion.bind(*motion_to_telemetry_);
+}
+
+std::uint64_t Topology::ticks(std::uint64_t frame_sets) const {
+  const std::uint64_t each = mission_.motion ? mission_.motion->beats_per_frame_set : 1;
+  return frame_sets > kEndless / each ? kEndless : frame_sets * each;
 }
 
 RateGroupTable Topology::table() {
   using std::chrono::microseconds;
-  const auto period = microseconds(std::llround(1e6 / mission_.frame_rate_hz));
-  return {.base_period = period,
-          .groups = {{.name = "vision",
-                      .priority = kVisionPriority,
-                      .components = {{sync_trigger, microseconds(100)},
-                                     {cameras, microseconds(2000)},
-                                     {extractor, microseconds(10000), {}, pool_.workers()},
-                                     {tracker, microseconds(15000)},
-                                     {attitude, microseconds(2000)},
-                                     {pose, microseconds(2000)},
-                                     {surveillance, microseconds(2000)},
-                                     {imaging, microseconds(10000), {.reaction = BreachReaction::kDegrade}},
-                                     {telemetry, microseconds(1000)}}},
-                     {.name = "health",
-                      .divisor = beats_per_second(mission_.frame_rate_hz),
-                      .priority = kHealthPriority,
-                      .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}}};
+  const std::uint32_t base_ticks = mission_.motion ? mission_.motion->beats_per_frame_set : 1;
+  const std::chrono::nanoseconds period = mission_.motion
+                                              ? std::chrono::nanoseconds(mission_.motion->period_ns())
+                                              : microseconds(std::llround(1e6 / mission_.frame_rate_hz));
+  RateGroupTable table{
+      .base_period = period,
+      .groups = {{.name = "vision",
+                  .divisor = base_ticks,
+                  .priority = kVisionPriority,
+                  .components = {{sync_trigger, microseconds(100)},
+                                 {cameras, microseconds(2000)},
+                                 {extractor, microseconds(10000), {}, pool_.workers()},
+                                 {tracker, microseconds(15000)},
+                                 {attitude, microseconds(2000)},
+                                 {pose, microseconds(2000)},
+                                 {imaging, microseconds(10000), {.reaction = BreachReaction::kDegrade}},
+                                 {telemetry, microseconds(1000)}}},
+                 {.name = "health",
+                  .divisor = base_ticks * beats_per_second(mission_.frame_rate_hz),
+                  .priority = kHealthPriority,
+                  .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}}};
+  if (trigger_watch) table.groups.front().components.push_back({*trigger_watch, microseconds(100)});
+  if (motion)
+    table.groups.push_back(
+        {.name = "motion", .priority = kMotionPriority, .components = {{*motion, microseconds(500)}}});
+  return table;
 }
 
 std::vector<telemetry::StageEnd> Topology::stage_ends() const {

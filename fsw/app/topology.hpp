@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "components/attitude/attitude.hpp"
 #include "components/camera/cameras.hpp"
+#include "components/camera/trigger_watch.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/extractor.hpp"
 #include "components/imaging/imaging.hpp"
+#include "components/motion/motion.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/surveillance/surveillance.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
@@ -37,6 +40,12 @@ class Topology {
   Topology& operator=(const Topology&) = delete;
 
   const Mission& mission() const { return mission_; }
+  /// Base ticks that so many frame sets take.
+  std::uint64_t ticks(std::uint64_t frame_sets) const;
+  /// Null where nothing moves.
+  ServoDriver* servo() const { return servo_.get(); }
+  /// Null where nothing is fired.
+  TriggerDriver* trigger_line() const { return trigger_line_.get(); }
   RateGroupTable table();
   /// Which component ends which stage of a frame set's way.
   std::vector<telemetry::StageEnd> stage_ends() const;
@@ -52,6 +61,8 @@ class Topology {
   WorkerPool pool_;
   StarCatalogue catalogue_;
   CameraDrivers drivers_;
+  std::unique_ptr<ServoDriver> servo_;
+  std::unique_ptr<TriggerDriver> trigger_line_;
 
  public:
   Events events;
@@ -67,12 +78,15 @@ class Topology {
   Imaging imaging;
   Telemetry telemetry;
   UtcCorrelation utc;
+  std::optional<Motion> motion;
+  std::optional<TriggerWatch> trigger_watch;
   Health health;
 
  private:
   Latest<HealthReport> health_to_telemetry_;  // from one rate group to the other
   Latest<TimingReport> timing_to_telemetry_;
   Latest<UtcReport> utc_to_telemetry_;
+  std::optional<Latest<MotionReport>> motion_to_telemetry_;
 
   void connect();
 };

@@ -45,6 +45,11 @@ const char* name_of(omma_EventSeverity severity) {
   static constexpr const char* kNames[] = {"diagnostic", "activity", "warning", "failure"};
   return kNames[static_cast<std::size_t>(severity)];
 }
+const char* name_of(omma_MotionMode mode) {
+  static constexpr const char* kNames[] = {"to the start", "running", "finished",
+                                           "going home",   "at home", "EMERGENCY STOP"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
 
 Eigen::Quaterniond eigen(const omma_Quaternion& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
@@ -180,6 +185,23 @@ void add_health(Table& table, const omma_Health& health) {
                    count(health.events_dropped), count(health.telemetry_dropped), count(health.log_lost)));
 }
 
+void add_motion(Table& table, const omma_Motion& motion) {
+  const LineStyle style = motion.board_lost || motion.mode == omma_MOTION_STOPPED ? LineStyle::kBad
+                          : motion.late_ticks > 0                                 ? LineStyle::kWarning
+                                                                                  : LineStyle::kGood;
+  auto count = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  table.add(TopicId::kMotion, style,
+            format("%s   %.2f s of the trajectory   late beats %llu   commands refused %llu%s",
+                   name_of(motion.mode), motion.trajectory_time_s, count(motion.late_ticks),
+                   count(motion.refused_commands), motion.board_lost ? "   BOARD LOST" : ""));
+  for (std::uint32_t i = 0; i < motion.axes._length; ++i) {
+    const omma_AxisCommand& axis = motion.axes._buffer[i];
+    table.add(TopicId::kMotion, style,
+              format("  %-10s %+8.3f deg  %+8.3f deg/s  %8.2f us", axis.name, axis.angle_rad * kDegrees,
+                     axis.speed_rad_s * kDegrees, axis.pulse_quarter_us / 4.0));
+  }
+}
+
 void add_timing(Table& table, const omma_Timing& timing) {
   table.plain("component         steps   mean ms    p99 ms    max ms  budget ms   over");
   for (std::uint32_t i = 0; i < timing.steps._length; ++i) {
@@ -256,6 +278,10 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
   for (const auto& [body, pose] : samples.poses()) add_pose(table, pose);
   table.heading("OBJECTS", TopicId::kUnknownObjects);
   if (samples.objects() != nullptr) add_objects(table, *samples.objects());
+  if (const omma_Motion* motion = samples.motion()) {
+    table.heading("MOTION", TopicId::kMotion);
+    add_motion(table, *motion);
+  }
   table.heading("HEALTH", TopicId::kHealth);
   if (samples.health() != nullptr) add_health(table, *samples.health());
   table.heading("TIMING", TopicId::kTiming);

@@ -52,6 +52,9 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
     case TopicId::kImageChunk:
       sound = keep(image_reader_, cdr, image_chunk_);
       break;
+    case TopicId::kMotion:
+      sound = keep(motion_reader_, cdr, motion_);
+      break;
     case TopicId::kEvent: {
       const omma_Event* event = nullptr;
       sound = keep(event_reader_, cdr, event);

@@ -39,6 +39,7 @@ class NewestSamples {
   const omma_FrameTiming* frame_timing() const { return frame_timing_; }
   const omma_UtcCorrelation* utc() const { return utc_; }
   const omma_ImageChunk* image_chunk() const { return image_chunk_; }
+  const omma_Motion* motion() const { return motion_; }
   const std::map<int, omma_RelativePose>& poses() const { return poses_; }  ///< by body
   const std::deque<EventLine>& events() const { return events_; }           ///< oldest first
 
@@ -59,6 +60,7 @@ class NewestSamples {
   telemetry::CdrReader utc_reader_{telemetry::TopicId::kUtc};
   telemetry::CdrReader event_reader_{telemetry::TopicId::kEvent};
   telemetry::CdrReader image_reader_{telemetry::TopicId::kImageChunk};
+  telemetry::CdrReader motion_reader_{telemetry::TopicId::kMotion};
   const omma_FrameSet* frame_set_ = nullptr;
   const omma_Attitude* attitude_ = nullptr;
   const omma_UnknownObjects* objects_ = nullptr;
@@ -67,6 +69,7 @@ class NewestSamples {
   const omma_FrameTiming* frame_timing_ = nullptr;
   const omma_UtcCorrelation* utc_ = nullptr;
   const omma_ImageChunk* image_chunk_ = nullptr;
+  const omma_Motion* motion_ = nullptr;
   std::map<int, omma_RelativePose> poses_;
   std::deque<EventLine> events_;
   std::map<telemetry::TopicId, SteadyClock::time_point> came_;

@@ -1,8 +1,6 @@
 // The commands of the Maestro as bytes, and its error bits as words.
 #include "hal/maestro/maestro_protocol.hpp"
 
-#include <string_view>
-
 namespace omma::maestro {
 
 Message encode(Command command, int device, int channel, std::uint16_t value) noexcept {
@@ -37,14 +35,11 @@ Message encode(Command command, int device, int channel, std::uint16_t value) no
 }
 
 std::string error_names(std::uint16_t errors) {
-  static constexpr std::array<std::string_view, 9> kNames = {
-      "serial signal",   "serial overrun", "serial buffer full", "serial CRC",    "serial protocol",
-      "serial time-out", "script stack",   "script call stack",  "script counter"};
   std::string names;
-  for (std::size_t bit = 0; bit < kNames.size(); ++bit) {
+  for (std::size_t bit = 0; bit < kErrorNames.size(); ++bit) {
     if ((errors >> bit & 1U) == 0) continue;
     if (!names.empty()) names += ", ";
-    names += kNames[bit];
+    names += kErrorNames[bit];
   }
   return names.empty() ? "none" : names;
 }

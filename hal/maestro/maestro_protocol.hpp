@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace omma::maestro {
 
@@ -34,6 +35,11 @@ struct Message {
 /// number 0 ... 127, the command without its highest bit. Channel and value are for the commands that take
 /// them.
 Message encode(Command command, int device, int channel = 0, std::uint16_t value = 0) noexcept;
+
+/// What each error bit says, the lowest first.
+inline constexpr std::array<std::string_view, 9> kErrorNames = {
+    "serial signal",   "serial overrun", "serial buffer full", "serial CRC",    "serial protocol",
+    "serial time-out", "script stack",   "script call stack",  "script counter"};
 
 /// The names of the errors whose bits are set, joined by ", "; "none" where none is.
 std::string error_names(std::uint16_t errors);

@@ -30,11 +30,12 @@ MaestroServo::MaestroServo(MaestroOptions options) : options_(std::move(options)
 }
 
 MaestroServo::~MaestroServo() {
-  disconnect();
+  if (const int file = file_.load(); file >= 0) ::close(file);
 }
 
 bool MaestroServo::connect() noexcept {
-  disconnect();
+  if (connected()) return true;
+  if (const int file = file_.exchange(-1); file >= 0) ::close(file);
   const int file = ::open(options_.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;
   termios line{};
@@ -44,6 +45,7 @@ bool MaestroServo::connect() noexcept {
     if (::tcsetattr(file, TCSANOW, &line) == 0) {
       ::tcflush(file, TCIOFLUSH);
       file_ = file;
+      connected_.store(true, std::memory_order_release);
       return true;
     }
   }
@@ -53,26 +55,24 @@ bool MaestroServo::connect() noexcept {
   return false;
 }
 
-void MaestroServo::disconnect() noexcept {
-  if (file_ >= 0) ::close(file_);
-  file_ = -1;
-}
-
 bool MaestroServo::send(Command command, int channel, std::uint16_t value) noexcept {
   const maestro::Message message = maestro::encode(command, options_.number, channel, value);
-  if (file_ >= 0) {
+  if (connected()) {
     const ssize_t written = ::write(file_, message.bytes.data(), message.size);
     if (written == static_cast<ssize_t>(message.size)) return true;
     // A full line may take the next command; after half a command, or any other error, nothing is sure.
-    if (written >= 0 || errno != EAGAIN) disconnect();
+    if (written >= 0 || errno != EAGAIN) {
+      times_lost_.fetch_add(1, std::memory_order_relaxed);
+      give_up();
+    }
   }
-  ++lost_;
+  lost_.fetch_add(1, std::memory_order_relaxed);
   return false;
 }
 
 std::optional<std::uint16_t> MaestroServo::ask(Command command, int channel) noexcept {
   using Clock = std::chrono::steady_clock;
-  if (file_ < 0) return std::nullopt;
+  if (!connected()) return std::nullopt;
   ::tcflush(file_, TCIFLUSH);  // an answer that came too late belongs to an older question
   if (!send(command, channel)) return std::nullopt;
   const Clock::time_point end = Clock::now() + std::chrono::milliseconds(options_.timeout_ms);
@@ -85,7 +85,8 @@ std::optional<std::uint16_t> MaestroServo::ask(Command command, int channel) noe
     const ssize_t got = ::read(file_, answer.data() + size, answer.size() - size);
     if (got <= 0) {
       if (got < 0 && (errno == EAGAIN || errno == EINTR)) continue;
-      disconnect();
+      times_lost_.fetch_add(1, std::memory_order_relaxed);
+      give_up();
       return std::nullopt;
     }
     size += static_cast<std::size_t>(got);
@@ -122,6 +123,35 @@ std::optional<QuarterMicroseconds> MaestroServo::position(int channel) noexcept 
 
 std::optional<std::uint16_t> MaestroServo::errors() noexcept {
   return ask(Command::kGetErrors);
+}
+
+void MaestroServo::attend() noexcept {
+  if (!connected()) {
+    // Another thread may have been in the middle of a command when it was given up; by the next time it has
+    // long ended.
+    if (std::exchange(given_up_before_, true)) connect();
+    return;
+  }
+  given_up_before_ = false;
+  const std::optional<std::uint16_t> bits = errors();
+  if (!bits) unanswered_.fetch_add(1, std::memory_order_relaxed);
+  for (std::size_t bit = 0; bit < errors_.size(); ++bit)
+    if ((bits.value_or(0) >> bit & 1U) != 0) errors_[bit].fetch_add(1, std::memory_order_relaxed);
+}
+
+std::vector<std::string> MaestroServo::complaints() const {
+  std::vector<std::string> sentences;
+  const auto say = [&](std::uint64_t count, std::string_view what) {
+    if (count > 0)
+      sentences.push_back(options_.device + ": " + std::string(what) + ", " + std::to_string(count) +
+                          " times");
+  };
+  say(times_lost_, "the board was lost");
+  say(lost_, "the line did not take a command");
+  say(unanswered_, "the board did not tell its errors in time");
+  for (std::size_t bit = 0; bit < errors_.size(); ++bit)
+    say(errors_[bit], "board error '" + std::string(maestro::kErrorNames[bit]) + "'");
+  return sentences;
 }
 
 }  // namespace omma

@@ -1,9 +1,12 @@
 // A Pololu Maestro on a serial device. Commands are written without waiting; questions wait for their answer
 // no longer than the time-out. A board that is unplugged is noticed at the next command and comes back by
-// connect().
+// attend(): from the first command it did not take until then the line belongs to the attending thread, so
+// that neither waits for the other and closing the line, which may take seconds, holds up no command.
+// Commands may come from several threads (servos, a trigger): each is one write.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,20 +45,31 @@ class MaestroServo final : public ServoDriver {
   /// The error bits since the last question (maestro::error_names says them).
   std::optional<std::uint16_t> errors() noexcept;
 
-  bool connected() const noexcept { return file_ >= 0; }
-  std::uint64_t lost_commands() const noexcept { return lost_; }  ///< not taken by the line
-  /// Opens the device again after it was lost. Not for real-time threads.
+  bool connected() const noexcept { return connected_.load(std::memory_order_acquire); }
+  std::uint64_t lost_commands() const noexcept { return lost_.load(); }  ///< not taken by the line
+  /// Opens the device again after it was lost.
+  /// @return true where it is open
   bool connect() noexcept;
+  /// Opens a lost device; asks a connected board for its errors and counts them.
+  void attend() noexcept override;
+  std::vector<std::string> complaints() const override;
 
  private:
   bool valid(int channel) const noexcept { return channel >= 0 && channel < options_.channels; }
   bool send(maestro::Command command, int channel = 0, std::uint16_t value = 0) noexcept;
   std::optional<std::uint16_t> ask(maestro::Command command, int channel = 0) noexcept;
-  void disconnect() noexcept;
+  /// Leaves the line to the attending thread.
+  void give_up() noexcept { connected_.store(false, std::memory_order_release); }
 
   MaestroOptions options_;
-  int file_ = -1;
-  std::uint64_t lost_ = 0;
+  std::atomic<int> file_{-1};     // the commanding threads' while connected, else the attending thread's
+  bool given_up_before_ = false;  // the attending thread found it so the last time
+  std::atomic<bool> connected_{false};
+  std::atomic<std::uint64_t> lost_{0};
+  std::atomic<std::uint64_t> times_lost_{0};
+  std::array<std::atomic<std::uint32_t>, maestro::kErrorNames.size()>
+      errors_{};  // how often each bit was set
+  std::atomic<std::uint32_t> unanswered_{0};
 };
 
 }  // namespace omma

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
-#include "maestro_simulator.hpp"
+#include "sim/devices/maestro_simulator.hpp"
 
 namespace omma {
 namespace {
@@ -114,6 +114,29 @@ TEST(MaestroServo, SurvivesUnplugAndReplug) {
   EXPECT_TRUE(servo.connect());
   EXPECT_TRUE(servo.set_target(0, 6003));
   EXPECT_EQ(servo.position(0), 6003);
+}
+
+TEST(MaestroServo, WhatWentWrongIsCountedAndNamed) {
+  auto board = std::make_unique<MaestroSimulator>(link_path());
+  MaestroServo servo(options(link_path()));
+  EXPECT_TRUE(servo.complaints().empty());
+  board->set_errors(2 | 16);
+  servo.attend();
+  board.reset();
+  EXPECT_FALSE(servo.set_target(0, 6000));
+  servo.attend();
+  servo.attend();
+  EXPECT_FALSE(servo.connected());
+  board = std::make_unique<MaestroSimulator>(link_path());
+  servo.attend();
+  EXPECT_TRUE(servo.connected());
+  EXPECT_TRUE(servo.set_target(0, 6000));
+  const std::vector<std::string> said = servo.complaints();
+  ASSERT_EQ(said.size(), 4U);
+  EXPECT_NE(said[0].find("the board was lost, 1 times"), std::string::npos);
+  EXPECT_NE(said[1].find("did not take a command, 1 times"), std::string::npos);
+  EXPECT_NE(said[2].find("serial overrun"), std::string::npos);
+  EXPECT_NE(said[3].find("serial protocol"), std::string::npos);
 }
 
 TEST(MaestroServo, CommandsOutOfRangeNeverReachTheLine) {

@@ -52,33 +52,34 @@ TEST(AxisSpline, TwoPointsMakeTheKnownCubic) {
   const AxisSpline spline(points);
   EXPECT_NEAR(spline.at(1).angle, 0.5, 1e-15);
   const AxisExtremes extremes = spline.extremes();
-  EXPECT_NEAR(extremes.largest_speed, 0.75, 1e-15);        // 3/2 of the mean
-  EXPECT_NEAR(extremes.largest_acceleration, 1.5, 1e-15);  // 6 angle / time²
+  EXPECT_NEAR(extremes.largest_speed.value, 0.75, 1e-15);  // 3/2 of the mean, half way
+  EXPECT_NEAR(extremes.largest_speed.time, 1, 1e-15);
+  EXPECT_NEAR(extremes.largest_acceleration.value, 1.5, 1e-15);  // 6 angle / time²
 }
 
 TEST(AxisSpline, ExtremesAreThoseOfFineSamples) {
   const AxisSpline spline(kPoints);
   const AxisExtremes extremes = spline.extremes();
-  AxisExtremes seen{1e9, -1e9, 0, 0};
+  AxisExtremes seen{{1e9, 0}, {-1e9, 0}, {}, {}};
   for (int i = 1; i < 50000; ++i) {
     const AxisState state = spline.at(1 + i * 1e-4);
-    seen.lowest_angle = std::min(seen.lowest_angle, state.angle);
-    seen.highest_angle = std::max(seen.highest_angle, state.angle);
-    seen.largest_speed = std::max(seen.largest_speed, std::abs(state.speed));
-    seen.largest_acceleration = std::max(seen.largest_acceleration, std::abs(state.acceleration));
+    seen.lowest_angle.value = std::min(seen.lowest_angle.value, state.angle);
+    seen.highest_angle.value = std::max(seen.highest_angle.value, state.angle);
+    seen.largest_speed.value = std::max(seen.largest_speed.value, std::abs(state.speed));
+    seen.largest_acceleration.value = std::max(seen.largest_acceleration.value, std::abs(state.acceleration));
   }
-  EXPECT_NEAR(extremes.lowest_angle, seen.lowest_angle, 1e-6);
-  EXPECT_NEAR(extremes.highest_angle, seen.highest_angle, 1e-6);
-  EXPECT_NEAR(extremes.largest_speed, seen.largest_speed, 1e-5);
-  EXPECT_NEAR(extremes.largest_acceleration, seen.largest_acceleration, 1e-2);
+  EXPECT_NEAR(extremes.lowest_angle.value, seen.lowest_angle.value, 1e-6);
+  EXPECT_NEAR(extremes.highest_angle.value, seen.highest_angle.value, 1e-6);
+  EXPECT_NEAR(extremes.largest_speed.value, seen.largest_speed.value, 1e-5);
+  EXPECT_NEAR(extremes.largest_acceleration.value, seen.largest_acceleration.value, 1e-2);
 }
 
 TEST(AxisSpline, AnAxisThatRestsHasNoExtremes) {
   const std::vector<KeyPoint> points = {{0, 0.3}, {1, 0.3}, {2, 0.3}};
   const AxisExtremes extremes = AxisSpline(points).extremes();
-  EXPECT_EQ(extremes.lowest_angle, 0.3);
-  EXPECT_EQ(extremes.highest_angle, 0.3);
-  EXPECT_EQ(extremes.largest_speed, 0);
+  EXPECT_EQ(extremes.lowest_angle.value, 0.3);
+  EXPECT_EQ(extremes.highest_angle.value, 0.3);
+  EXPECT_EQ(extremes.largest_speed.value, 0);
 }
 
 std::string refusal(const std::vector<KeyPoint>& points) {

@@ -210,5 +210,31 @@ TEST(SetText, IsCutToWhatFits) {
   EXPECT_STREQ(text, "");
 }
 
+TEST_F(Samples, MotionTellsEachAxisUnderItsName) {
+  names_.axes.push_back(Name("z"));
+  names_.axes.push_back(Name("y"));
+  FrameReport report(names_);
+  MotionReport motion;
+  motion.valid = true;
+  motion.time_ns = 77;
+  motion.mode = MotionMode::kHoming;
+  motion.late_ticks = 3;
+  motion.board_lost = true;
+  motion.axes.resize(2);
+  motion.axes[1].state.angle = 0.5;
+  motion.axes[1].goal.angle = 0.75;
+  motion.axes[1].pulse = 6001;
+  fill(motion, report.motion);
+  EXPECT_EQ(report.motion.time_ns, 77);
+  EXPECT_EQ(report.motion.mode, omma_MOTION_HOMING);
+  EXPECT_EQ(report.motion.late_ticks, 3U);
+  EXPECT_TRUE(report.motion.board_lost);
+  ASSERT_EQ(report.motion.axes._length, 2U);
+  EXPECT_STREQ(report.motion.axes._buffer[1].name, "y");
+  EXPECT_EQ(report.motion.axes._buffer[1].angle_rad, 0.5);
+  EXPECT_EQ(report.motion.axes._buffer[1].goal_rad, 0.75);
+  EXPECT_EQ(report.motion.axes._buffer[1].pulse_quarter_us, 6001);
+}
+
 }  // namespace
 }  // namespace omma::telemetry

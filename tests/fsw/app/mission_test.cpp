@@ -77,6 +77,90 @@ TEST_F(MissionFile, MayAskForAnAttitudeFilter) {
   EXPECT_EQ(mission.attitude.mekf.acceleration_density, 2e-4);
 }
 
+constexpr const char* kMotionTable =
+    "[motion]\ndriver = \"simulated\"\ngimbal = \"gimbals/dissertation.toml\"\ntrajectory = "
+    "\"trajectories/three_axes.csv\"\n";
+
+TEST_F(MissionFile, MayMoveAGimbal) {
+  EXPECT_FALSE(read_mission(file()).motion);
+  replace("demo.toml", "[imaging]", std::string(kMotionTable) + "\n[imaging]");
+  const Mission mission = read_mission(file());
+  ASSERT_TRUE(mission.motion);
+  ASSERT_EQ(mission.motion->axes.size(), 3U);
+  EXPECT_EQ(mission.motion->axes[1].axis.name.view(), "y");
+  EXPECT_EQ(mission.motion->beats_per_frame_set, 20U);
+  EXPECT_EQ(mission.motion->period_ns(), 5'000'000);
+}
+
+TEST_F(MissionFile, MistakesInItsMotionAreNamed) {
+  const std::string table = kMotionTable;
+  replace("demo.toml", "[imaging]", table + "rate_hz = 200\nchannels = 12\n[imaging]");
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    replace("demo.toml", from, to);
+    const std::string said = message();
+    replace("demo.toml", to, from);
+    return said;
+  };
+  EXPECT_THAT(refusal("\"simulated\"", "\"dynamixel\""),
+              HasSubstr("motion.driver: expected \"simulated\" or \"maestro\""));
+  EXPECT_THAT(refusal("\"simulated\"", "\"maestro\""), HasSubstr("motion.device: expected the serial line"));
+  EXPECT_THAT(refusal("rate_hz = 200", "rate_hz = 125"), HasSubstr("a whole multiple of frame_rate_hz"));
+  EXPECT_THAT(refusal("rate_hz = 200", "rate_hz = 5"), HasSubstr("a whole multiple of frame_rate_hz"));
+  EXPECT_THAT(refusal("channels = 12", "channels = 2"),
+              HasSubstr("motion.channels: expected the channel of every axis"));
+  EXPECT_THAT(refusal("gimbals/dissertation", "gimbals/other"),
+              HasSubstr("other.toml: file: expected a TOML file"));
+  EXPECT_THAT(refusal("three_axes.csv", "four_axes.csv"), HasSubstr("no such file"));
+  EXPECT_THAT(refusal("channels = 12", "chanels = 12"), HasSubstr("unknown key"));
+}
+
+TEST_F(MissionFile, OfTheLabSwitchesEachPartByOneWord) {
+  const std::filesystem::path lab = folder_ / "lab.toml";
+  const Mission simulated = read_mission(lab);
+  EXPECT_EQ(simulated.trigger.driver, TriggerKind::kSimulated);
+  ASSERT_TRUE(simulated.motion);
+  EXPECT_EQ(simulated.motion->driver, ServoKind::kSimulated);
+  EXPECT_EQ(simulated.motion->beats_per_frame_set, 108U);
+  replace("lab.toml",
+          "[trigger]                        # the lab's line was a digital output of the Maestro: driver = "
+          "\"maestro\"\ndriver = \"simulated\"",
+          "[trigger]\ndriver = \"gpiod\"");
+  replace("lab.toml", "driver = \"simulated\"             # the lab's: ", "");
+  const Mission real = read_mission(lab);
+  EXPECT_EQ(real.trigger.driver, TriggerKind::kGpiod);
+  EXPECT_EQ(real.trigger.gpiod.line, "frame_sync");
+  EXPECT_EQ(real.trigger.gpiod.pulse.width_ns, 1'000'000);
+  EXPECT_EQ(real.motion->driver, ServoKind::kMaestro);
+  EXPECT_TRUE(has_trigger_line(real) && has_servo_board(real));
+  EXPECT_FALSE(has_trigger_line(simulated) || has_servo_board(simulated));
+  EXPECT_THROW(servo_driver(real, {.lockstep = true}), InputError);  // no servo follows a replay
+  EXPECT_THROW(trigger_driver(real, {.lockstep = true}, nullptr), InputError);
+  EXPECT_EQ(real.motion->maestro.device, "/dev/ttyACM0");
+}
+
+TEST_F(MissionFile, MistakesInItsTriggerAreNamed) {
+  replace("demo.toml", "[imaging]",
+          "[trigger]\ndriver = \"gpiod\"\nchip = \"gpiochip0\"\nline = \"3\"\nwidth_ms = 2\npolarity = "
+          "\"rising\"\n[imaging]");
+  EXPECT_EQ(message(), "no error");
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    replace("demo.toml", from, to);
+    const std::string said = message();
+    replace("demo.toml", to, from);
+    return said;
+  };
+  EXPECT_THAT(refusal("\"gpiod\"", "\"usb\""),
+              HasSubstr("trigger.driver: expected \"recorded\", \"simulated\""));
+  EXPECT_THAT(refusal("\"gpiod\"", "\"maestro\""), HasSubstr("trigger.channel: expected the channel"));
+  EXPECT_THAT(refusal("chip = \"gpiochip0\"", "chip = \"\""),
+              HasSubstr("trigger.chip: expected a GPIO chip"));
+  EXPECT_THAT(refusal("line = \"3\"", "line = \"\""), HasSubstr("trigger.line: expected a line"));
+  EXPECT_THAT(refusal("width_ms = 2", "width_ms = 100"),
+              HasSubstr("trigger.width_ms: expected less than the period of the frame sets, 100.000000 ms"));
+  EXPECT_THAT(refusal("\"rising\"", "\"both\""), HasSubstr("trigger.polarity: expected \"rising\" or"));
+  EXPECT_THAT(refusal("width_ms", "witdh_ms"), HasSubstr("unknown key"));
+}
+
 TEST_F(MissionFile, WithAFilterThatDoesNotExistIsRefused) {
   replace("demo.toml", "[imaging]", "[attitude]\nfilter = \"ekf\"\n\n[imaging]");
   EXPECT_THAT(message(), HasSubstr("filter: expected \"none\" or \"mekf\", found ekf"));

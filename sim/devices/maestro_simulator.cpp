@@ -1,5 +1,5 @@
 // The board's side of the protocol, written from the guide and not from the driver's encoder.
-#include "maestro_simulator.hpp"
+#include "sim/devices/maestro_simulator.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -7,11 +7,33 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
 
+#include "fsw/kernel/input_error.hpp"
+
 namespace omma {
+
+namespace {
+
+bool make_raw(int file) {
+  termios line{};
+  if (::tcgetattr(file, &line) != 0) return false;
+  ::cfmakeraw(&line);
+  return ::tcsetattr(file, TCSANOW, &line) == 0;
+}
+
+}  // namespace
+
+MaestroSimulator::MaestroSimulator(SerialDevice device, int number) : number_(number) {
+  file_ = ::open(device.path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (file_ < 0 || !make_raw(file_))
+    throw InputError(device.path, 0, "device", "a serial line", std::strerror(errno));
+  thread_ = std::thread([this] { run(); });
+}
 
 MaestroSimulator::MaestroSimulator(std::string link, int number) : link_(std::move(link)), number_(number) {
   file_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -20,10 +42,7 @@ MaestroSimulator::MaestroSimulator(std::string link, int number) : link_(std::mo
   if (::ptsname_r(file_, name.data(), name.size()) != 0) throw std::runtime_error("pty without a name");
   // Held open, so that the line stays up before the driver comes and is raw from the start.
   line_ = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-  termios raw{};
-  ::tcgetattr(line_, &raw);
-  ::cfmakeraw(&raw);
-  ::tcsetattr(line_, TCSANOW, &raw);
+  make_raw(line_);
   std::filesystem::remove(link_);
   std::filesystem::create_symlink(name.data(), link_);
   thread_ = std::thread([this] { run(); });
@@ -32,15 +51,17 @@ MaestroSimulator::MaestroSimulator(std::string link, int number) : link_(std::mo
 MaestroSimulator::~MaestroSimulator() {
   ends_ = true;
   thread_.join();
-  std::filesystem::remove(link_);
-  ::close(line_);
+  if (!link_.empty()) std::filesystem::remove(link_);
+  if (line_ >= 0) ::close(line_);
   ::close(file_);
 }
 
 bool MaestroSimulator::next(std::uint8_t& byte) {
   while (!ends_) {
     pollfd wait{file_, POLLIN, 0};
-    if (::poll(&wait, 1, 5) > 0 && ::read(file_, &byte, 1) == 1) return true;
+    if (::poll(&wait, 1, 5) <= 0) continue;
+    if (::read(file_, &byte, 1) == 1) return true;
+    ::usleep(5000);  // nobody at the other end
   }
   return false;
 }
@@ -77,6 +98,7 @@ void MaestroSimulator::answer(std::uint16_t value) {
 
 void MaestroSimulator::obey(std::uint8_t command) {
   std::uint8_t channel = 0;
+  ++commands_;
   switch (command) {
     case 0x84:
       set(targets_);

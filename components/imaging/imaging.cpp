@@ -40,6 +40,7 @@ void Imaging::visit_ports(PortVisitor& visitor) const {
   visitor.input("frames", frames);
   visitor.input("dots", dots);
   visitor.input("attitude", attitude);
+  if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("chunk", chunk);
 }
 
@@ -50,6 +51,12 @@ void Imaging::degrade(int level) noexcept {
 void Imaging::skipped(const Tick& /*tick*/) noexcept {
   chunk->valid = false;
   chunk->rows = 0;
+}
+
+CommandOutcome Imaging::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
+  next_row_ = height();
+  frame_sets_ = parameters_.period;
+  return CommandOutcome::done();
 }
 
 void Imaging::collect_images() noexcept {
@@ -159,6 +166,7 @@ void Imaging::send_rows() noexcept {
 }
 
 void Imaging::step(const Tick& /*tick*/) noexcept {
+  if (tuning.has_news()) take_parameters(*tuning, parameters_);
   ImageChunk& out = *chunk;
   out.frame = frames->number;
   out.time_ns = frames->trigger_time_ns;

@@ -18,8 +18,17 @@
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
 #include "fsw/kernel/spsc_queue.hpp"
+#include "fsw/services/command.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
+
+inline constexpr CommandDescriptor kStartPicture{.id = 20,
+                                                 .name = "start_picture",
+                                                 .text = "leaves the picture under way and begins a new one",
+                                                 .modes = modes(Mode::kAcquire, Mode::kTrack)};
+
+inline constexpr std::array kImagingCommands{kStartPicture};
 
 struct ImagingParameters : PictureSettings {
   ImageComposite composite = ImageComposite::kSingle;
@@ -31,6 +40,20 @@ struct ImagingParameters : PictureSettings {
   Footprint footprint = Footprint::kPeak;
 };
 
+inline constexpr ParameterDescriptor kImagingPeriod{
+    .id = 50,
+    .name = "imaging.period",
+    .text = "least number of frame sets from the start of a picture to the next",
+    .value = {
+        .name = "value", .unit = "frame sets", .type = ValueType::kInteger, .least = 1, .most = 100000}};
+
+inline constexpr std::array kImagingParameters{kImagingPeriod};
+
+template <class Visit>
+void visit_parameters(ImagingParameters& p, Visit&& visit) {
+  visit(kImagingPeriod, p.period);
+}
+
 /// A picture asked for while flying: made once, after the one that is being made. Angles as PictureSettings.
 struct PictureRequest {
   ImageKind kind = ImageKind::kView;  ///< not kCamera
@@ -39,7 +62,7 @@ struct PictureRequest {
   double field = 0;                   ///< of a view or fisheye [rad]; 0: the mission's
 };
 
-class Imaging final : public Component {
+class Imaging final : public Component, public CommandReceiver {
  public:
   /// Allocates the look-up table and the composite. @throws std::invalid_argument as Mosaic and Picture,
   /// where one row is longer than a chunk (limits::kImageChunkBytes), and for a composite of less than one
@@ -49,6 +72,7 @@ class Imaging final : public Component {
   In<Frames> frames;
   In<DotLists> dots;  ///< for the cameras' background levels
   In<AttitudeEstimate> attitude;
+  ParameterInput tuning;
   Out<ImageChunk> chunk;
 
   std::string_view name() const override { return "imaging"; }
@@ -57,6 +81,7 @@ class Imaging final : public Component {
   /// Half as many rows a step with each level: the same picture takes twice as long.
   void degrade(int level) noexcept override;
   void skipped(const Tick& tick) noexcept override;
+  CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
   /// From one other thread, any time: false where four requests wait already. One that cannot be made (a row
   /// longer than a chunk, a field too wide) is passed over and counted.

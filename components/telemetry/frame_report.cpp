@@ -12,7 +12,8 @@ static_assert(limits::kCameras <= omma_MAX_CAMERAS && limits::kDotsPerCamera <= 
               limits::kRateGroups <= omma_MAX_GROUPS && limits::kEventValues <= omma_MAX_EVENT_VALUES &&
               limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES &&
               limits::kUnknownObjects <= omma_MAX_OBJECTS && kFrameStages <= omma_MAX_STAGES &&
-              kMostAxes <= omma_MAX_AXES);
+              kMostAxes <= omma_MAX_AXES && limits::kParameterIds <= omma_MAX_PARAMETERS &&
+              limits::kCommandArguments <= omma_MAX_ARGUMENTS);
 
 template <class Sequence, class Storage>
 void lead_to(Sequence& sequence, Storage* storage, std::size_t room) {
@@ -38,6 +39,7 @@ FrameReport::FrameReport(const TelemetryNames& names)
   for (std::size_t i = 0; i < names.axes.size(); ++i) set_text(axes_[i].name, names.axes[i].view());
   lead_to(timing.steps, steps_.data(), steps_.size());
   lead_to(frame_timing.stages, stages_.data(), stages_.size());
+  lead_to(parameters.values, parameters_.data(), parameters_.size());
   for (EventSample& event : events)
     lead_to(event.sample.values, event.record.values.data(), event.record.values.size());
 }

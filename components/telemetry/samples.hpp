@@ -15,8 +15,11 @@
 #include "components/pose/pose_estimate.hpp"
 #include "components/surveillance/unknown_objects.hpp"
 #include "components/telemetry/omma.h"
+#include "components/telemetry/spacecraft_status.hpp"
 #include "components/tracker/pairings.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/parameters.hpp"
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma::telemetry {
@@ -60,5 +63,10 @@ void fill(const UtcReport& utc, omma_UtcCorrelation& out) noexcept;
 void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept;
 /// @param out  `axes` holds room for as many as the gimbal has; their names are left as they are
 void fill(const MotionReport& motion, omma_Motion& out) noexcept;
+/// The text is left as it is: it is made off the real-time path.
+void fill(const CommandAck& ack, omma_CommandAck& out) noexcept;
+void fill(const SpacecraftStatus& status, omma_Status& out) noexcept;
+/// @param out  `values` holds room for limits::kParameterIds
+void fill(const ParameterSet& set, std::span<const ParameterEntry> entries, omma_Parameters& out) noexcept;
 
 }  // namespace omma::telemetry

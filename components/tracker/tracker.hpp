@@ -20,13 +20,23 @@
 #include "components/tracker/sky_pairing.hpp"
 #include "components/tracker/star_identification.hpp"
 #include "components/tracker/target_identification.hpp"
-#include "components/tracker/tracker_parameters.hpp"
+#include "components/tracker/tracker_tuning.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/command.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
 
-class Tracker final : public Component {
+inline constexpr CommandDescriptor kSearchAgain{
+    .id = 21,
+    .name = "search_again",
+    .text = "forgets where the sky and the bodies were, and identifies them anew",
+    .modes = modes(Mode::kAcquire, Mode::kTrack, Mode::kSafe)};
+
+inline constexpr std::array kTrackerCommands{kSearchAgain};
+
+class Tracker final : public Component, public CommandReceiver {
  public:
   /// @param catalogue  apparent places at the mission's epoch; outlives this, as do `rig` and `bodies`
   Tracker(const TrackerParameters& parameters, const Rig& rig, const StarCatalogue& catalogue,
@@ -35,11 +45,14 @@ class Tracker final : public Component {
   In<DotLists> dots;
   Previous<AttitudeEstimate> attitude;  // of the frame set before: what the prediction is made of
   Previous<PoseEstimates> poses;
+  ParameterInput tuning;
   Out<Pairings> pairings;
 
   std::string_view name() const override { return "tracker"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
+  CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
  private:
   /// How long something has been paired in every frame set.
@@ -55,7 +68,9 @@ class Tracker final : public Component {
     std::array<Persistence, limits::kTargetsPerBody> persistence{};
   };
 
+  void take_news() noexcept;
   void learn() noexcept;
+  void forget() noexcept;
   bool predictable(bool ready, TimeNs last_time_ns) const noexcept;
   void place_solar_system() noexcept;
   bool pair_bodies(std::size_t count) noexcept;
@@ -88,6 +103,7 @@ class Tracker final : public Component {
   std::array<BodyPrediction, limits::kTargetBodies> predictions_{};
   TimeNs frame_interval_ns_ = 0;
   std::uint64_t steps_ = 0;
+  bool forget_ = false;  // before the next frame set
 };
 
 }  // namespace omma

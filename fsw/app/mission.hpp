@@ -50,7 +50,7 @@ struct Mission {
   /// it.
   telemetry::PerStage<double> latency_ms{};
   SurveillanceParameters surveillance;
-  ImagingParameters imaging;
+  ImagingParameters imaging;  ///< a panorama every ten frame sets, unless the mission says otherwise
   int dds_domain = 0;
 };
 

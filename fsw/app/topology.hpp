@@ -11,6 +11,7 @@
 #include "components/camera/trigger_watch.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/extractor.hpp"
+#include "components/housekeeping/housekeeping.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/motion/motion.hpp"
 #include "components/pose/relative_pose.hpp"
@@ -24,8 +25,14 @@
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/worker_pool.hpp"
+#include "fsw/services/command_text.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/events.hpp"
+#include "fsw/services/fault_watch.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/limit_watch.hpp"
+#include "fsw/services/mode_keeper.hpp"
+#include "fsw/services/parameters.hpp"
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
@@ -53,6 +60,8 @@ class Topology {
   telemetry::PerStage<> latency_budgets();
   /// Real-time privileges that the threads sharing the extraction were not granted.
   const Refusals& refusals() const { return pool_.refusals(); }
+  /// The words of the commands it takes; valid as long as this.
+  CommandVocabulary vocabulary() const;
   /// CameraDrivers::frame_sets
   std::uint64_t frame_sets() const { return drivers_.frame_sets(); }
 
@@ -68,6 +77,8 @@ class Topology {
   Events events;
 
   // In the order of the data.
+  Commander commander;
+  Parameters parameters;
   SyncTrigger sync_trigger;
   Cameras cameras;
   Extractor extractor;
@@ -76,6 +87,10 @@ class Topology {
   RelativePose pose;
   Surveillance surveillance;
   Imaging imaging;
+  Housekeeping housekeeping;
+  LimitWatch limit_watch;
+  ModeKeeper mode_keeper;
+  FaultWatch fault_watch;
   Telemetry telemetry;
   UtcCorrelation utc;
   std::optional<Motion> motion;
@@ -87,8 +102,10 @@ class Topology {
   Latest<TimingReport> timing_to_telemetry_;
   Latest<UtcReport> utc_to_telemetry_;
   std::optional<Latest<MotionReport>> motion_to_telemetry_;
+  Queue<CommandAck, 64> acks_to_telemetry_;
 
   void connect();
+  void bind_commands();
 };
 
 }  // namespace omma

@@ -40,8 +40,10 @@ class NewestSamples {
   const omma_UtcCorrelation* utc() const { return utc_; }
   const omma_ImageChunk* image_chunk() const { return image_chunk_; }
   const omma_Motion* motion() const { return motion_; }
+  const omma_Status* status() const { return status_; }
   const std::map<int, omma_RelativePose>& poses() const { return poses_; }  ///< by body
-  const std::deque<EventLine>& events() const { return events_; }           ///< oldest first
+  /// Events and what became of commands, oldest first.
+  const std::deque<EventLine>& events() const { return events_; }
 
   /// Seconds since a sample of the topic came; none where none has.
   std::optional<double> age(telemetry::TopicId id, SteadyClock::time_point now) const;
@@ -50,6 +52,9 @@ class NewestSamples {
   std::uint64_t undecodable() const { return undecodable_; }
 
  private:
+  void add_event(std::int64_t time_ns, omma_EventSeverity severity, const char* text,
+                 std::uint32_t runs_ago = 0);
+
   telemetry::CdrReader frame_set_reader_{telemetry::TopicId::kFrameSet};
   telemetry::CdrReader attitude_reader_{telemetry::TopicId::kAttitude};
   telemetry::CdrReader pose_reader_{telemetry::TopicId::kRelativePose};
@@ -61,6 +66,8 @@ class NewestSamples {
   telemetry::CdrReader event_reader_{telemetry::TopicId::kEvent};
   telemetry::CdrReader image_reader_{telemetry::TopicId::kImageChunk};
   telemetry::CdrReader motion_reader_{telemetry::TopicId::kMotion};
+  telemetry::CdrReader ack_reader_{telemetry::TopicId::kCommandAck};
+  telemetry::CdrReader status_reader_{telemetry::TopicId::kStatus};
   const omma_FrameSet* frame_set_ = nullptr;
   const omma_Attitude* attitude_ = nullptr;
   const omma_UnknownObjects* objects_ = nullptr;
@@ -70,6 +77,7 @@ class NewestSamples {
   const omma_UtcCorrelation* utc_ = nullptr;
   const omma_ImageChunk* image_chunk_ = nullptr;
   const omma_Motion* motion_ = nullptr;
+  const omma_Status* status_ = nullptr;
   std::map<int, omma_RelativePose> poses_;
   std::deque<EventLine> events_;
   std::map<telemetry::TopicId, SteadyClock::time_point> came_;

@@ -16,6 +16,7 @@
 #include "ground/export/export.hpp"
 #include "ground/feed/feed.hpp"
 #include "ground/monitor/monitor.hpp"
+#include "ground/motion/compare_motion.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
 #include "ground/resect/resect.hpp"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
   omma::ground::add_feed(app, context);
+  omma::ground::add_compare_motion(app, context);
   omma::ground::add_calibrate(app, context);
   omma::ground::add_cameras(app, context);
   omma::ground::add_capture(app, context);

@@ -16,7 +16,9 @@ int bench_photographs(int argc, char** argv);
 int bench_pipelines(int argc, char** argv);
 int bench_ports(int argc, char** argv);
 int bench_pose(int argc, char** argv);
+int bench_real_sky(int argc, char** argv);
 int bench_render(int argc, char** argv);
+int bench_rig_calibration(int argc, char** argv);
 int bench_steps(int argc, char** argv);
 int bench_target_identification(int argc, char** argv);
 

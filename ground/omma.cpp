@@ -19,6 +19,7 @@
 #include "ground/feed/feed.hpp"
 #include "ground/images/images.hpp"
 #include "ground/monitor/monitor.hpp"
+#include "ground/motion/compare_motion.hpp"
 #include "ground/motion/motion.hpp"
 #include "ground/objects/objects.hpp"
 #include "ground/record/record.hpp"
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   omma::ground::add_composite(app, context);
   omma::ground::add_images(app, context);
   omma::ground::add_objects(app, context);
+  omma::ground::add_compare_motion(app, context);
   omma::ground::add_calibrate(app, context);
   omma::ground::add_cameras(app, context);
   omma::ground::add_capture(app, context);

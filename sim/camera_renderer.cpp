@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "sim/stray_light.hpp"
+
 namespace omma::sim {
 
 CameraRenderer::CameraRenderer(const Scenario& scenario, std::span<const SkyStar> stars,
@@ -45,8 +47,10 @@ void CameraRenderer::draw(std::uint64_t frame) {
     view_.point_spread().add(point, view_.width(), view_.height(), electrons_.data());
   }
   for (const Spot& spot : list_.spots) {
-    if (spot.kind == SpotKind::kMoon) add_glare(view_, spot, list_, electrons_);
+    if (spot.kind == SpotKind::kMoon || spot.kind == SpotKind::kSun)
+      add_glare(view_, spot, list_, electrons_);
   }
+  if (scenario_.sun) add_stray_sunlight(camera_from_j2000(midpoint) * scenario_.sun->direction, cards);
   // A dark disc is light taken away, and rounding may take a trace too much.
   for (float& value : electrons_) value = std::max(value, 0.0F);
   bloom(view_.sensor(), view_.width(), view_.height(), electrons_);
@@ -62,7 +66,25 @@ void CameraRenderer::add_sky(const SceneInstant& midpoint, std::span<const Scene
     sky.ground->up = view_.camera().rig_from_camera.rotation.conjugate() * scenario_.ground->up;
   }
   add_stars(view_, sky, stars_, scenario_.moon, cards, list_);
-  if (scenario_.moon) add_moon(view_, sky, *scenario_.moon, cards, quadrature_, list_);
+  const Eigen::Vector3d* lit_by = scenario_.sun ? &scenario_.sun->direction : nullptr;
+  if (scenario_.moon)
+    add_disc(view_, sky, SpotKind::kMoon, *scenario_.moon, lit_by, cards, quadrature_, list_);
+  if (scenario_.sun) add_disc(view_, sky, SpotKind::kSun, *scenario_.sun, nullptr, cards, quadrature_, list_);
+}
+
+// A card before the Sun keeps the lens in the shade.
+void CameraRenderer::add_stray_sunlight(const Eigen::Vector3d& sun, std::span<const CardView> cards) {
+  if (std::any_of(cards.begin(), cards.end(), [&](const CardView& card) { return card.hides(sun); })) return;
+  double flux = view_.star_electrons(scenario_.sun->magnitude);
+  if (scenario_.ground) {
+    const Eigen::Vector3d up = view_.camera().rig_from_camera.rotation.conjugate() * scenario_.ground->up;
+    flux *= scenario_.ground->transmission(up.dot(sun));
+  }
+  if (flux <= 0) return;
+  add_veil(view_, sun, flux, electrons_);
+  Eigen::Vector2d image;
+  double kept = 0;
+  if (view_.project(sun, image, kept)) add_ghosts(view_, image, flux * kept, electrons_);
 }
 
 void CameraRenderer::add_cards(std::span<const SceneInstant> drawn, std::span<const CardView> cards) {
@@ -96,19 +118,21 @@ void CameraRenderer::truth(std::vector<SpotTruth>& out) {
   out.clear();
   for (const Spot& spot : list_.spots) {
     const SpotTruth truth = truth_of(view_, spot, list_, electrons_, patch_);
-    // The Moon is told however little its saturated disc says about itself.
-    if (truth.snr >= scenario_.truth_minimum_snr || spot.kind == SpotKind::kMoon) out.push_back(truth);
+    // Moon and Sun are told however little their saturated discs say about themselves.
+    if (truth.snr >= scenario_.truth_minimum_snr || spot.kind == SpotKind::kMoon ||
+        spot.kind == SpotKind::kSun)
+      out.push_back(truth);
   }
 }
 
 void CameraRenderer::read_out(std::span<std::uint8_t> grey) const {
   const RandomSequence sequence(scenario_.seed, static_cast<std::uint64_t>(index_), frame_);
-  sim::read_out<std::uint8_t>(view_.sensor(), electrons_, sequence, 0, grey);
+  sim::read_out<std::uint8_t>(view_.sensor(), electrons_, view_.offsets(), sequence, 0, grey);
 }
 
 void CameraRenderer::read_out(std::span<std::uint16_t> grey) const {
   const RandomSequence sequence(scenario_.seed, static_cast<std::uint64_t>(index_), frame_);
-  sim::read_out<std::uint16_t>(view_.sensor(), electrons_, sequence, 0, grey);
+  sim::read_out<std::uint16_t>(view_.sensor(), electrons_, view_.offsets(), sequence, 0, grey);
 }
 
 }  // namespace omma::sim

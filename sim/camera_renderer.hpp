@@ -36,6 +36,7 @@ class CameraRenderer {
   Eigen::Matrix3d camera_from_j2000(const SceneInstant& instant) const;
   void add_sky(const SceneInstant& midpoint, std::span<const SceneInstant> drawn,
                std::span<const CardView> cards);
+  void add_stray_sunlight(const Eigen::Vector3d& sun, std::span<const CardView> cards);
   void add_cards(std::span<const SceneInstant> drawn, std::span<const CardView> cards);
 
   const Scenario& scenario_;

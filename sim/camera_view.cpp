@@ -9,7 +9,7 @@ namespace omma::sim {
 CameraView::CameraView(const RigCamera& camera, const Sensor& sensor, std::uint64_t seed, int index)
     : camera_(camera),
       sensor_(sensor),
-      point_spread_(sensor.psf_sigma),
+      point_spread_(sensor.psf_sigma, std::sqrt(sensor.fill_factor)),
       cos_edge_(std::cos(std::min(0.5 * sensor.field, std::numbers::pi))) {
   trace_corners();
   light_pixels();
@@ -53,7 +53,7 @@ void CameraView::light_pixels() {
       Eigen::Vector3d ray;
       Eigen::Matrix<double, 3, 2> jacobian;
       if (!camera_.lens.bearing({u, v}, ray, jacobian)) continue;
-      transmission_[at] = static_cast<float>(transmission(ray));
+      transmission_[at] = static_cast<float>(sensor_.fill_factor * transmission(ray));
       solid_angle_[at] = static_cast<float>(jacobian.col(0).cross(jacobian.col(1)).norm());
     }
   }
@@ -70,6 +70,13 @@ void CameraView::heat_pixels(std::uint64_t seed, int index) {
     }
     dark_[i] = static_cast<float>(current * sensor_.exposure);
     base_[i] = dark_[i] + static_cast<float>(sensor_.sky * sensor_.exposure) * transmission_[i];
+  }
+  if (!sensor_.logarithmic) return;
+  const RandomSequence pattern(seed, static_cast<std::uint64_t>(index), ~std::uint64_t{1});
+  const double deviation = sensor_.log_pixel().pattern();
+  offset_.resize(transmission_.size());
+  for (std::size_t i = 0; i < offset_.size(); ++i) {
+    offset_[i] = static_cast<float>(deviation) * normal_table()(static_cast<std::uint32_t>(pattern[i]));
   }
 }
 

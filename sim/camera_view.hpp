@@ -29,12 +29,15 @@ class CameraView {
   bool project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel, double& transmission) const;
 
   // One value a pixel, row by row.
+  /// Share of an even surface's light that its pixels keep, the part of them that sees nothing taken off.
   const std::vector<float>& transmissions() const { return transmission_; }
   const std::vector<float>& solid_angles() const { return solid_angle_; }  ///< [sr]
   const std::vector<float>& dark() const {
     return dark_;
   }  ///< electrons of one exposure, hot pixels included
   const std::vector<float>& base() const { return base_; }  ///< the same with the light of the empty sky
+  /// Of the pixels themselves [grey levels]; empty where they are alike.
+  const std::vector<float>& offsets() const { return offset_; }
   /// (width + 1) × (height + 1) unit rays (camera frame) of the pixels' corners; zero where the lens has
   /// none.
   const std::vector<Eigen::Vector3f>& corner_rays() const { return corner_rays_; }
@@ -54,7 +57,7 @@ class CameraView {
   PointSpread point_spread_;
   double cos_edge_;  // of the half field
   std::vector<Eigen::Vector3f> corner_rays_;
-  std::vector<float> transmission_, solid_angle_, dark_, base_;
+  std::vector<float> transmission_, solid_angle_, dark_, base_, offset_;
 };
 
 }  // namespace omma::sim

@@ -15,16 +15,16 @@ constexpr int kMaximumSide = 64;
 
 }  // namespace
 
-PointSpread::PointSpread(double sigma)
+PointSpread::PointSpread(double sigma, double side)
     : sigma_(sigma), radius_(static_cast<int>(std::ceil(5.0 * sigma + 0.5))), side_(2 * radius_ + 1) {
   share_.resize(static_cast<std::size_t>((kNodes + 1) * side_));
   slope_.resize(share_.size());
   for (int node = 0; node <= kNodes; ++node) {
     const double offset = static_cast<double>(node) / kNodes - 0.5;
     for (int i = 0; i < side_; ++i) {
-      // The pixel reaches from a to b, measured from the source in sigmas.
-      const double a = (i - radius_ - 0.5 - offset) / sigma;
-      const double b = (i - radius_ + 0.5 - offset) / sigma;
+      // What sees light reaches from a to b, measured from the source in sigmas.
+      const double a = (i - radius_ - 0.5 * side - offset) / sigma;
+      const double b = (i - radius_ + 0.5 * side - offset) / sigma;
       const auto at = static_cast<std::size_t>(node * side_ + i);
       share_[at] =
           static_cast<float>(0.5 * (std::erf(b / std::numbers::sqrt2) - std::erf(a / std::numbers::sqrt2)));

@@ -28,7 +28,8 @@ struct Patch {
 class PointSpread {
  public:
   /// @param sigma  standard deviation of the spot before integration over the pixel [px], 0.2 to 5
-  explicit PointSpread(double sigma);
+  /// @param side   of the square in the middle of a pixel that sees light [px], 0.1 to 1
+  explicit PointSpread(double sigma, double side = 1);
 
   double sigma() const { return sigma_; }
   /// The spot reaches this many pixels from the pixel that holds its centre; beyond lie 6e-7 of its light.

@@ -1,10 +1,22 @@
 #include "sim/scenario.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "components/catalogue/star_catalogue.hpp"
 
 namespace omma::sim {
+
+double moon_magnitude(double phase_angle) {
+  const double degrees = phase_angle * 180 / std::numbers::pi;
+  return -12.73 + 0.026 * std::abs(degrees) + 4e-9 * std::pow(degrees, 4);
+}
+
+double phase_angle(const Eigen::Vector3d& to_moon, const Eigen::Vector3d& to_sun) {
+  return std::numbers::pi - std::acos(std::clamp(to_moon.dot(to_sun), -1.0, 1.0));
+}
 
 SceneInstant scene_at(const Scenario& scenario, double time) {
   SceneInstant instant;

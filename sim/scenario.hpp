@@ -35,12 +35,17 @@ struct Card {
   double disc_diameter = 0;    ///< [m]
 };
 
-/// A round luminous body at infinity.
-struct Moon {
+/// A round luminous body at infinity: the Moon, or the Sun.
+struct Disc {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, J2000 axes
   double diameter = 0;                                   ///< [rad]
   double magnitude = 0;                                  ///< V, of the whole disc
 };
+
+/// V of the Moon at a phase angle (0: full). Allen, Astrophysical Quantities, 1976, section 66.
+double moon_magnitude(double phase_angle);
+/// Angle at the Moon between Sun and Earth, the Sun being very far [rad].
+double phase_angle(const Eigen::Vector3d& to_moon, const Eigen::Vector3d& to_sun);
 
 struct Scenario {
   std::string name;
@@ -59,7 +64,8 @@ struct Scenario {
   /// The rig stands turned from its motion by this: a gimbal's lash, another in each trial (rig axes).
   Eigen::Quaterniond rig_turn = Eigen::Quaterniond::Identity();
   std::vector<Card> cards;
-  std::optional<Moon> moon;
+  std::optional<Disc> moon;
+  std::optional<Disc> sun;       ///< the Moon is lit by it where there are both, else full
   std::optional<Ground> ground;  ///< none in orbit
 
   double time_of(std::uint64_t frame) const { return static_cast<double>(frame) / frame_rate; }  ///< [s]

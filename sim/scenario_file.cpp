@@ -137,14 +137,50 @@ std::vector<Card> cards_of(const TomlTable& root) {
   return cards;
 }
 
-Sensor sensor_of(const TomlTable& table) {
-  Sensor sensor;
-  sensor.bits = static_cast<int>(table.integer("bits", {8, 16}));
+LogResponse log_response_of(const TomlTable& table) {
+  LogResponse r;
+  r.volts_per_decade = 1e-3 * table.number("millivolts_per_decade", {1, 1000}, 1e3 * r.volts_per_decade);
+  r.dynamic_range_db = table.number("dynamic_range_db", {20, 240}, r.dynamic_range_db);
+  r.full_scale = table.number("full_scale_v", {0.01, 20}, r.full_scale);
+  r.analog_gain = table.number("analog_gain", {0.1, 1000}, r.analog_gain);
+  r.blacklevel = table.number("blacklevel", {-1000, 1000}, r.blacklevel);
+  r.blacklevel_dark = table.number("blacklevel_dark", {-1000, 1000}, r.blacklevel_dark);
+  r.blacklevel_step = 1e-3 * table.number("blacklevel_step_mv", {0, 1000}, 1e3 * r.blacklevel_step);
+  r.junction = table.number("junction_e", {10, 1e9}, r.junction);
+  r.fixed_pattern = 1e-3 * table.number("fixed_pattern_mv", {0, 1000}, 1e3 * r.fixed_pattern);
+  r.read_noise = 1e-3 * table.number("read_noise_mv", {0, 1000}, 1e3 * r.read_noise);
+  table.refuse_unknown_keys();
+  return r;
+}
+
+void read_stray_light(const TomlTable& table, Sensor& sensor) {
+  sensor.veil = table.number("veil", {0, 1}, 0);
+  sensor.veil_width = kDegree * table.number("veil_width_deg", {0.1, 180}, 23);
+  sensor.veil_reach = kDegree * table.number("veil_reach_deg", {0, 180}, 92);
+  for (const TomlTable& ghost : table.tables_if("ghost")) {
+    sensor.ghosts.push_back({ghost.number("place", {-5, 5}), ghost.number("radius_px", {0.5, 1e4}),
+                             ghost.number("share", {0, 1})});
+    ghost.refuse_unknown_keys();
+  }
+}
+
+// What only a linear sensor has.
+void read_linear(const TomlTable& table, Sensor& sensor) {
   sensor.gain = table.number("gain_e", {1e-3, 1e6});
   sensor.black_level = table.number("black_level", {0, 65535});
   sensor.read_noise = table.number("read_noise_e", {0.5, 1e4});
-  sensor.dark_current = table.number("dark_current_e_s", {0, 1e9});
   sensor.full_well = table.number("full_well_e", {1, 1e9});
+  sensor.blooming = table.number("blooming", {0, 1}, 0);
+  if (sensor.black_level >= sensor.white_level()) {
+    throw table.error("black_level", "a grey level below white, " + std::to_string(sensor.white_level()),
+                      std::to_string(sensor.black_level));
+  }
+}
+
+Sensor sensor_of(const TomlTable& table) {
+  Sensor sensor;
+  sensor.bits = static_cast<int>(table.integer("bits", {8, 16}));
+  sensor.dark_current = table.number("dark_current_e_s", {0, 1e9});
   sensor.exposure = table.number("exposure_s", {1e-9, 1e4});
   sensor.zero_point = table.number("zero_point_e_s", {1e-6, 1e15});
   sensor.sky = table.number("sky_e_s", {0, 1e9});
@@ -153,13 +189,17 @@ Sensor sensor_of(const TomlTable& table) {
   sensor.field = kDegree * table.number("field_deg", {0.01, 360});
   sensor.hot_pixels = table.number("hot_pixels", {0, 1}, 0);
   sensor.hot_pixel_current = table.number("hot_pixel_current_e_s", {0, 1e9}, 0);
-  sensor.blooming = table.number("blooming", {0, 1}, 0);
   sensor.glare = table.number("glare", {0, 1}, 0);
   sensor.glare_radius = table.number("glare_radius_px", {0.1, 1e4}, 10);
   sensor.blur_samples = static_cast<int>(table.integer("blur_samples", {1, 256}, 1));
-  if (sensor.black_level >= sensor.white_level()) {
-    throw table.error("black_level", "a grey level below white, " + std::to_string(sensor.white_level()),
-                      std::to_string(sensor.black_level));
+  sensor.fill_factor = table.number("fill_factor", {0.01, 1}, 1);
+  read_stray_light(table, sensor);
+  if (const auto logarithmic = table.table_if("logarithmic")) {
+    sensor.logarithmic = log_response_of(*logarithmic);
+    if (!(sensor.dark_current > 0))
+      throw table.error("dark_current_e_s", "above 0: a logarithmic pixel's signal is light over it", "0");
+  } else {
+    read_linear(table, sensor);
   }
   table.refuse_unknown_keys();
   return sensor;
@@ -189,15 +229,24 @@ void read_sensors(const TomlTable& root, Scenario& scenario) {
   }
 }
 
-Moon moon_of(const TomlTable& table) {
-  Moon moon;
+Disc disc_of(const TomlTable& table, double diameter_deg, double magnitude) {
+  Disc disc;
   const double ra = kDegree * table.number("ra_deg", {-360, 360});
   const double dec = kDegree * table.number("dec_deg", {-90, 90});
-  moon.direction = {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
-  moon.diameter = kDegree * table.number("diameter_deg", {1e-4, 10}, 0.52);
-  moon.magnitude = table.number("magnitude", {-30, 10}, -12.7);
+  disc.direction = {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+  disc.diameter = kDegree * table.number("diameter_deg", {1e-4, 10}, diameter_deg);
+  disc.magnitude = table.number("magnitude", {-30, 10}, magnitude);
   table.refuse_unknown_keys();
-  return moon;
+  return disc;
+}
+
+void read_sun_and_moon(const TomlTable& root, Scenario& scenario) {
+  if (const auto sun = root.table_if("sun")) scenario.sun = disc_of(*sun, 0.533, -26.74);
+  const auto moon = root.table_if("moon");
+  if (!moon) return;
+  scenario.moon = disc_of(*moon, 0.52, -12.7);
+  if (scenario.sun && !moon->has("magnitude"))
+    scenario.moon->magnitude = moon_magnitude(phase_angle(scenario.moon->direction, scenario.sun->direction));
 }
 
 Ground ground_of(const TomlTable& table) {
@@ -242,7 +291,7 @@ Scenario read_scenario_file(const std::filesystem::path& file) {
   scenario.rig = read_rig_file(scenario.rig_file);
   read_sensors(root, scenario);
   scenario.cards = cards_of(root);
-  if (const auto moon = root.table_if("moon")) scenario.moon = moon_of(*moon);
+  read_sun_and_moon(root, scenario);
   if (const auto ground = root.table_if("ground")) scenario.ground = ground_of(*ground);
   root.refuse_unknown_keys();
   return scenario;

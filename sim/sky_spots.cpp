@@ -23,7 +23,7 @@ void add_point(const CameraView& camera, const Eigen::Vector3d& direction, doubl
 }  // namespace
 
 void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
-               const std::optional<Moon>& moon, std::span<const CardView> cards, SpotList& list) {
+               const std::optional<Disc>& moon, std::span<const CardView> cards, SpotList& list) {
   const double cos_edge = std::cos(std::min(0.5 * camera.sensor().field, std::numbers::pi));
   const double cos_moon = moon ? std::cos(0.5 * moon->diameter) : 2.0;
   const double share = 1.0 / static_cast<double>(view.drawn.size());
@@ -46,25 +46,37 @@ void add_stars(const CameraView& camera, const SkyView& view, std::span<const Sk
   }
 }
 
-void add_moon(const CameraView& camera, const SkyView& view, const Moon& moon,
-              std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list) {
-  const Eigen::Vector3d direction = view.camera_from_j2000 * moon.direction;
+void add_disc(const CameraView& camera, const SkyView& view, SpotKind kind, const Disc& disc,
+              const Eigen::Vector3d* lit_by, std::span<const CardView> cards,
+              const DiscQuadrature& quadrature, SpotList& list) {
+  const Eigen::Vector3d direction = view.camera_from_j2000 * disc.direction;
   Spot spot;
-  spot.kind = SpotKind::kMoon;
+  spot.kind = kind;
   double kept = 0;
   const double through = view.transmission(direction);
   if (through == 0 || !camera.project(direction, spot.centre, kept) || hidden(direction, cards)) return;
-  const double radius = 0.5 * moon.diameter;
+  const double radius = 0.5 * disc.diameter;
   const auto& rule =
       quadrature.rule(radius / camera.camera().lens.pixel_angle() / camera.point_spread().sigma());
-  const Eigen::Matrix<double, 3, 2> basis = std::tan(radius) * tangent_basis(moon.direction);
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(disc.direction);
+  std::vector<double> lit;
+  double all = 0;
+  for (const QuadraturePoint& q : rule) {
+    const double depth = std::sqrt(std::max(0.0, 1 - q.position.squaredNorm()));
+    const Eigen::Vector3d normal = basis * q.position - depth * disc.direction;
+    lit.push_back(q.weight * (lit_by == nullptr ? 1 : std::max(0.0, normal.dot(*lit_by))));
+    all += lit.back();
+  }
+  if (!(all > 0)) return;  // new Moon
   const double flux =
-      through * camera.star_electrons(moon.magnitude) / static_cast<double>(view.drawn.size());
+      through * camera.star_electrons(disc.magnitude) / (all * static_cast<double>(view.drawn.size()));
   const std::size_t first = list.points.size();
   for (const Eigen::Matrix3d& camera_from_j2000 : view.drawn) {
-    for (const QuadraturePoint& q : rule) {
-      const Eigen::Vector3d limb = (moon.direction + basis * q.position).normalized();
-      add_point(camera, camera_from_j2000 * limb, flux * q.weight, list.points);
+    for (std::size_t k = 0; k < rule.size(); ++k) {
+      if (lit[k] == 0) continue;
+      const Eigen::Vector3d limb =
+          (disc.direction + std::tan(radius) * basis * rule[k].position).normalized();
+      add_point(camera, camera_from_j2000 * limb, flux * lit[k], list.points);
     }
   }
   list.close(spot, first);

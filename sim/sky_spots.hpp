@@ -1,4 +1,4 @@
-// The sky in one camera: stars and Moon as points of light.
+// The sky in one camera: stars, Moon and Sun as points of light.
 #pragma once
 
 #include <span>
@@ -27,11 +27,14 @@ struct SkyView {
 
 /// Appends the stars that neither a card nor the ground hides and that are not behind the Moon.
 void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
-               const std::optional<Moon>& moon, std::span<const CardView> cards, SpotList& list);
+               const std::optional<Disc>& moon, std::span<const CardView> cards, SpotList& list);
 
-/// Appends the Moon's disc, unless a card or the ground hides its centre.
-void add_moon(const CameraView& camera, const SkyView& view, const Moon& moon,
-              std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list);
+/// Appends the disc of Moon or Sun, unless a card or the ground hides its centre.
+/// @param lit_by  direction of the Sun, J2000 axes: the disc is a sphere that it lights (Lambert's law), its
+///                magnitude that of the lit part; nullptr: an even disc
+void add_disc(const CameraView& camera, const SkyView& view, SpotKind kind, const Disc& disc,
+              const Eigen::Vector3d* lit_by, std::span<const CardView> cards,
+              const DiscQuadrature& quadrature, SpotList& list);
 
 /// Adds the light that the lens scatters about a bright spot: share `glare` of its flux, falling as
 /// r₀ / (2π (r² + r₀²)^{3/2}), which integrates to one over the plane; outside the field nothing is added.

@@ -1,4 +1,4 @@
-// Spot: the image of one star, target or Moon in one camera, as the points of light it is drawn with.
+// Spot: the image of one star, target, Moon or Sun in one camera, as the points of light it is drawn with.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@
 
 namespace omma::sim {
 
-enum class SpotKind : std::uint8_t { kStar, kTarget, kMoon };
+enum class SpotKind : std::uint8_t { kStar, kTarget, kMoon, kSun };
 
 struct Spot {
   SpotKind kind = SpotKind::kStar;

@@ -39,9 +39,12 @@ SpotTruth truth_of(const CameraView& camera, const Spot& spot, const SpotList& l
   fit_patch(camera, points, patch);
   for (const PointSource& point : points) {
     camera.point_spread().add(point, patch);
-    truth.flux += point.flux / camera.sensor().gain;
+    truth.flux += point.flux;
   }
   const double full = camera.sensor().saturation();
+  const double empty = camera.sensor().blackout();
+  double slope_sum = 0;
+  double light_sum = 0;
   const float peak = *std::max_element(patch.value.begin(), patch.value.end());
   double snr_squared = 0;
   for (int j = 0; j < patch.height; ++j) {
@@ -54,6 +57,9 @@ SpotTruth truth_of(const CameraView& camera, const Spot& spot, const SpotList& l
         truth.saturated = truth.saturated || patch.value[at] > 0.1F * peak;
         continue;
       }
+      if (level <= empty) continue;
+      slope_sum += patch.value[at] * camera.sensor().slope(level);
+      light_sum += patch.value[at];
       const double weight = 1.0 / camera.sensor().variance(level);
       const double by_u = patch.by_u[at];
       const double by_v = patch.by_v[at];
@@ -63,6 +69,7 @@ SpotTruth truth_of(const CameraView& camera, const Spot& spot, const SpotList& l
       truth.information(1, 1) += weight * by_v * by_v;
     }
   }
+  truth.flux *= light_sum != 0 ? slope_sum / light_sum : camera.sensor().slope(full);
   truth.information(1, 0) = truth.information(0, 1);
   truth.snr = std::sqrt(snr_squared);
   return truth;

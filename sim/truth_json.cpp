@@ -44,6 +44,9 @@ Json spot_json(const Scenario& scenario, std::size_t camera, const SpotTruth& tr
     case SpotKind::kMoon:
       spot["kind"] = "moon";
       break;
+    case SpotKind::kSun:
+      spot["kind"] = "sun";
+      break;
     case SpotKind::kTarget: {
       const TargetBody& body = scenario.cards[truth.spot.card].body;
       spot["kind"] = "target";
@@ -62,26 +65,49 @@ Json spot_json(const Scenario& scenario, std::size_t camera, const SpotTruth& tr
   return spot;
 }
 
+Json log_response_json(const LogResponse& r) {
+  return {{"millivolts_per_decade", 1e3 * r.volts_per_decade},
+          {"dynamic_range_db", r.dynamic_range_db},
+          {"full_scale_v", r.full_scale},
+          {"analog_gain", r.analog_gain},
+          {"blacklevel", r.blacklevel},
+          {"blacklevel_dark", r.blacklevel_dark},
+          {"blacklevel_step_mv", 1e3 * r.blacklevel_step},
+          {"junction_e", r.junction},
+          {"fixed_pattern_mv", 1e3 * r.fixed_pattern},
+          {"read_noise_mv", 1e3 * r.read_noise}};
+}
+
+Json disc_json(const Disc& disc) {
+  return {{"direction_j2000", xyz(disc.direction)},
+          {"diameter_deg", disc.diameter * 180.0 / std::numbers::pi},
+          {"magnitude", disc.magnitude}};
+}
+
 Json sensor_json(const Sensor& s) {
-  return {{"bits", s.bits},
-          {"white_level", s.white_level()},
-          {"gain_e", s.gain},
-          {"black_level", s.black_level},
-          {"read_noise_e", s.read_noise},
-          {"dark_current_e_s", s.dark_current},
-          {"full_well_e", s.full_well},
-          {"exposure_s", s.exposure},
-          {"zero_point_e_s", s.zero_point},
-          {"sky_e_s", s.sky},
-          {"psf_sigma_px", s.psf_sigma},
-          {"vignetting", s.vignetting},
-          {"field_deg", s.field * 180.0 / std::numbers::pi},
-          {"hot_pixels", s.hot_pixels},
-          {"hot_pixel_current_e_s", s.hot_pixel_current},
-          {"blooming", s.blooming},
-          {"glare", s.glare},
-          {"glare_radius_px", s.glare_radius},
-          {"blur_samples", s.blur_samples}};
+  Json json{{"bits", s.bits},
+            {"white_level", s.white_level()},
+            {"gain_e", s.gain},
+            {"black_level", s.black_level},
+            {"read_noise_e", s.read_noise},
+            {"dark_current_e_s", s.dark_current},
+            {"full_well_e", s.full_well},
+            {"exposure_s", s.exposure},
+            {"zero_point_e_s", s.zero_point},
+            {"sky_e_s", s.sky},
+            {"psf_sigma_px", s.psf_sigma},
+            {"vignetting", s.vignetting},
+            {"field_deg", s.field * 180.0 / std::numbers::pi},
+            {"hot_pixels", s.hot_pixels},
+            {"hot_pixel_current_e_s", s.hot_pixel_current},
+            {"blooming", s.blooming},
+            {"glare", s.glare},
+            {"glare_radius_px", s.glare_radius},
+            {"blur_samples", s.blur_samples},
+            {"fill_factor", s.fill_factor},
+            {"veil", s.veil}};
+  if (s.logarithmic) json["logarithmic"] = log_response_json(*s.logarithmic);
+  return json;
 }
 
 Json card_json(const Card& card, const std::string& target_file) {
@@ -173,11 +199,8 @@ std::string scenario_json(const Scenario& scenario, std::span<const std::string>
   for (std::size_t c = 0; c < scenario.cards.size(); ++c) {
     json["bodies"].push_back(card_json(scenario.cards[c], target_files[c]));
   }
-  if (scenario.moon) {
-    json["moon"] = {{"direction_j2000", xyz(scenario.moon->direction)},
-                    {"diameter_deg", scenario.moon->diameter * 180.0 / std::numbers::pi},
-                    {"magnitude", scenario.moon->magnitude}};
-  }
+  if (scenario.moon) json["moon"] = disc_json(*scenario.moon);
+  if (scenario.sun) json["sun"] = disc_json(*scenario.sun);
   if (scenario.ground) {
     json["ground"] = {{"up_rig", xyz(scenario.ground->up)},
                       {"skyline_deg", scenario.ground->skyline * 180.0 / std::numbers::pi},

@@ -9,6 +9,7 @@ void add_calibrate(CLI::App& app, CommandContext& context);
 
 /// The subcommands, below `omma calibrate`.
 void add_calibrate_lens(CLI::App& calibrate, CommandContext& context);
+void add_calibrate_rig(CLI::App& calibrate, CommandContext& context);
 void add_calibrate_sky(CLI::App& calibrate, CommandContext& context);
 
 }  // namespace omma::ground

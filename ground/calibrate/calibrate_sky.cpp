@@ -10,6 +10,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/calibrate/refine_dots.hpp"
+#include "ground/calibrate/rig_text.hpp"
 #include "ground/calibrate/sky_report.hpp"
 #include "ground/format.hpp"
 #include "ground/page/page.hpp"
@@ -118,22 +119,6 @@ std::vector<SkyExposure> dots_of(const Arguments& a, const Exposures& e) {
   return exposures;
 }
 
-std::string turned_rig(const Rig& rig, const std::vector<std::string>& lens_files) {
-  std::string text =
-      "# Calibrated on the stars by omma calibrate sky.\nname = \"" + std::string(rig.name.view()) + "\"\n";
-  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
-    const Pose& pose = rig.cameras[c].rig_from_camera;
-    const Eigen::Quaterniond& q = pose.rotation;
-    text += format("\n[[camera]]\nname = \"%s\"\nlens = \"%s\"\n", rig.cameras[c].name.c_str(),
-                   lens_files[c].c_str());
-    text += format(
-        "rig_from_camera = { quaternion_xyzw = [%.12f, %.12f, %.12f, %.12f], translation_m = [%.9g, %.9g, "
-        "%.9g] }\n",
-        q.x(), q.y(), q.z(), q.w(), pose.translation.x(), pose.translation.y(), pose.translation.z());
-  }
-  return text;
-}
-
 void write_results(const Arguments& a, const SkyCalibration& calibration) {
   make_folder(a.output, "--output");
   const std::filesystem::path folder = a.output;
@@ -142,7 +127,9 @@ void write_results(const Arguments& a, const SkyCalibration& calibration) {
     files.push_back(camera.name.c_str() + std::string(a.model == "ocam" ? ".txt" : ".yaml"));
     write_text_file((folder / files.back()).string(), lens_file_text(camera.lens));
   }
-  if (!a.rig.empty()) write_text_file((folder / "rig.toml").string(), turned_rig(calibration.rig, files));
+  if (!a.rig.empty())
+    write_text_file((folder / "rig.toml").string(),
+                    rig_file_text(calibration.rig, files, "Calibrated on the stars by omma calibrate sky."));
   write_text_file((folder / "calibration.json").string(), sky_report_json(calibration));
   write_text_file((folder / "calibration.html").string(), sky_report_page(calibration));
   std::fprintf(stderr, "lens and page written: %s\n", (folder / "calibration.html").c_str());

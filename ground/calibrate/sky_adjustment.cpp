@@ -1,10 +1,10 @@
 #include "ground/calibrate/sky_adjustment.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "components/geometry/pose.hpp"
+#include "ground/calibrate/normal_equations.hpp"
 
 namespace omma::ground {
 namespace {
@@ -54,12 +54,6 @@ std::vector<bool> held_unknowns(const SkyRig& rig, const Layout& layout, const A
   return held;
 }
 
-struct Equations {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd gradient;
-  double cost = 0;
-};
-
 class Adjuster {
  public:
   Adjuster(const SkyRig& start, const std::vector<StarSight>& sights, const AdjustmentOptions& options)
@@ -75,7 +69,7 @@ class Adjuster {
  private:
   bool lenses_of(const SkyRig& rig, std::vector<Lens>& lenses) const;
   bool residuals_of(const SkyRig& rig, std::vector<Eigen::Vector2d>& residuals) const;
-  bool equations_at(const SkyRig& rig, double floor, Equations& sums) const;
+  bool equations_at(const SkyRig& rig, double floor, NormalEquations& sums) const;
   double cost_of(const std::vector<Eigen::Vector2d>& residuals, double floor) const;
   SkyRig moved(const SkyRig& rig, const Eigen::VectorXd& step) const;
   bool descend(double floor, SkyAdjustment& result);
@@ -129,7 +123,7 @@ double Adjuster::cost_of(const std::vector<Eigen::Vector2d>& residuals, double f
   return cost;
 }
 
-bool Adjuster::equations_at(const SkyRig& rig, double floor, Equations& sums) const {
+bool Adjuster::equations_at(const SkyRig& rig, double floor, NormalEquations& sums) const {
   std::vector<Lens> lenses;
   if (!lenses_of(rig, lenses)) return false;
   // Lenses with one number moved up and down, for the derivatives by it.
@@ -211,32 +205,15 @@ SkyRig Adjuster::moved(const SkyRig& rig, const Eigen::VectorXd& step) const {
   return next;
 }
 
-// The normal matrix is scaled to a unit diagonal: pixels, radians and coefficients differ by many orders.
-bool scaled_solve(const Equations& sums, double damping, Eigen::VectorXd& step, Eigen::MatrixXd* covariance) {
-  const Eigen::VectorXd diagonal = sums.information.diagonal();
-  if (!(diagonal.minCoeff() > 0)) return false;
-  const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * sums.information * scale.asDiagonal();
-  scaled.diagonal().array() += damping;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(scaled);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-14)) return false;
-  step = scale.asDiagonal() * factor.solve(scale.asDiagonal() * sums.gradient);
-  if (covariance != nullptr) {
-    *covariance = scale.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(scaled.rows(), scaled.cols())) *
-                  scale.asDiagonal();
-  }
-  return step.allFinite();
-}
-
 bool Adjuster::descend(double floor, SkyAdjustment& result) {
-  Equations here;
+  NormalEquations here;
   if (!equations_at(rig_, floor, here)) return false;
   double damping = 0;
   result.converged = false;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     ++result.iterations;
     Eigen::VectorXd step;
-    if (!scaled_solve(here, damping, step, nullptr)) {
+    if (!solve_scaled(here, damping, step, nullptr)) {
       if (damping > 1) return false;
       damping = damping > 0 ? 10 * damping : 1e-6;
       continue;
@@ -264,7 +241,7 @@ bool Adjuster::descend(double floor, SkyAdjustment& result) {
   }
   result.chi2 = here.cost;
   Eigen::VectorXd unused;
-  return scaled_solve(here, 0, unused, &result.covariance);
+  return solve_scaled(here, 0, unused, &result.covariance);
 }
 
 // The standard deviation per axis that, added to the dots' own, makes the residuals as large as they are.

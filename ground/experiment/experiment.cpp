@@ -8,6 +8,7 @@ void add_experiment(CLI::App& app, CommandContext& context) {
   command->require_subcommand(1);
   add_earth_rotation(*command, context);
   add_docking(*command, context);
+  add_dynamic_range(*command, context);
   add_repetition(*command, context);
 }
 

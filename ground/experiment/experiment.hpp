@@ -10,6 +10,7 @@ void add_experiment(CLI::App& app, CommandContext& context);
 /// The subcommands, below `omma experiment`.
 void add_earth_rotation(CLI::App& experiment, CommandContext& context);
 void add_docking(CLI::App& experiment, CommandContext& context);
+void add_dynamic_range(CLI::App& experiment, CommandContext& context);
 void add_repetition(CLI::App& experiment, CommandContext& context);
 
 }  // namespace omma::ground

@@ -96,8 +96,10 @@ TruthSpot read_spot(const Record& record, int cameras) {
     spot.id = record.text("id");
   } else if (kind == "moon") {
     spot.kind = TruthSpot::Kind::kMoon;
+  } else if (kind == "sun") {
+    spot.kind = TruthSpot::Kind::kSun;
   } else {
-    record.fail("kind", "star, target or moon", kind);
+    record.fail("kind", "star, target, moon or sun", kind);
   }
   spot.pixel = {record.number("u"), record.number("v")};
   spot.snr = record.number("snr");

@@ -14,7 +14,7 @@
 namespace omma::ground {
 
 struct TruthSpot {
-  enum class Kind : std::uint8_t { kStar, kTarget, kMoon };
+  enum class Kind : std::uint8_t { kStar, kTarget, kMoon, kSun };
   Kind kind = Kind::kStar;
   int camera = 0;        ///< index in the rig
   std::uint16_t hr = 0;  ///< star: number in the Bright Star Catalogue

@@ -23,7 +23,7 @@ struct Moments {
 Moments read(const Sensor& sensor, float electrons, std::uint64_t frame = 0) {
   const std::vector<float> mean(kPixels, electrons);
   std::vector<std::uint16_t> grey(kPixels);
-  read_out<std::uint16_t>(sensor, mean, RandomSequence(1, 0, frame), 0, grey);
+  read_out<std::uint16_t>(sensor, mean, {}, RandomSequence(1, 0, frame), 0, grey);
   Moments m;
   for (const std::uint16_t g : grey) m.mean += g / double(kPixels);
   for (const std::uint16_t g : grey) m.variance += (g - m.mean) * (g - m.mean) / double(kPixels);
@@ -69,10 +69,10 @@ TEST(Sensor, GivesEveryPixelItsNumberWhateverTheOrder) {
   std::vector<std::uint16_t> whole(1000);
   std::vector<std::uint16_t> parts(1000);
   const RandomSequence sequence(5, 1, 7);
-  read_out<std::uint16_t>(sensor(), mean, sequence, 0, whole);
-  read_out<std::uint16_t>(sensor(), std::span(mean).subspan(600), sequence, 600,
+  read_out<std::uint16_t>(sensor(), mean, {}, sequence, 0, whole);
+  read_out<std::uint16_t>(sensor(), std::span(mean).subspan(600), {}, sequence, 600,
                           std::span(parts).subspan(600));
-  read_out<std::uint16_t>(sensor(), std::span(mean).first(600), sequence, 0, std::span(parts).first(600));
+  read_out<std::uint16_t>(sensor(), std::span(mean).first(600), {}, sequence, 0, std::span(parts).first(600));
   EXPECT_EQ(whole, parts);
 }
 

@@ -71,6 +71,112 @@ TEST(CalibrateSky, RefusesWhatMakesNoSense) {
 
 const fs::path kBoards = fs::path(OMMA_SHARED_DATA) / "data/calibration/images";
 
+// Two cameras 35 degrees and 10 cm apart, a card moved before both.
+const std::string kRig = R"(name = "pair"
+[[camera]]
+name = "left"
+lens = "lens.txt"
+rig_from_camera = { quaternion_xyzw = [0, 0, 0, 1], translation_m = [0, 0, 0] }
+[[camera]]
+name = "right"
+lens = "lens.txt"
+rig_from_camera = { quaternion_xyzw = [0, 0.300705799504, 0, 0.953716950748], translation_m = [TX, 0, 0] }
+)";
+const std::string kCardScenario = R"(name = "pair"
+rig = "rig.toml"
+epoch_utc = "2026-01-01T00:00:00Z"
+frame_rate_hz = 1
+frames = 5
+faintest_v = 1
+[trajectory]
+rig_from_j2000 = [0, 0, 0, 1]
+rate_deg_s = [0, 0, 0]
+[[card]]
+name = "card"
+targets = "TARGETS"
+frame = "rig"
+plate_m = [0.254, 0.203]
+plate_v_arcsec2 = 19.5
+disc_v_arcsec2 = 15.6
+disc_diameter_m = 0.012
+[[card.key]]
+time_s = 0
+quaternion_xyzw = [1, 0, 0, 0]
+position_m = [0.2, 0, 0.6]
+[[card.key]]
+time_s = 2
+quaternion_xyzw = [0.955336489, 0, 0.295520207, 0]
+position_m = [0.1, 0.1, 0.7]
+[[card.key]]
+time_s = 4
+quaternion_xyzw = [0.955336489, 0.295520207, 0, 0]
+position_m = [0.3, -0.1, 0.5]
+)";
+const std::string kCardSensor = R"([[sensor]]
+camera = "CAMERA"
+bits = 14
+gain_e = 2
+black_level = 100
+read_noise_e = 10
+dark_current_e_s = 10
+full_well_e = 30000
+exposure_s = 0.1
+zero_point_e_s = 5000
+sky_e_s = 10
+psf_sigma_px = 0.7
+vignetting = 0.1
+field_deg = 120
+)";
+
+std::string replaced(std::string text, const std::string& word, const std::string& by) {
+  return text.replace(text.find(word), word.size(), by);
+}
+
+TEST(CalibrateRig, FindsWhereTheSecondCameraIsFromARecordingOfACard) {
+  const OperatorsFolder folder;
+  const std::string targets = OMMA_SOURCE_DIR "/config/targets/docking_card.tsv";
+  ASSERT_EQ(folder.omma("ideal-lens --size 640,480 --focal 300 --field 120 --out lens.txt").exit_code, 0);
+  folder.write("rig.toml", replaced(kRig, "TX", "0.1"));
+  folder.write("guess.toml", replaced(replaced(kRig, "TX", "0.13"), "0.300705799504, 0, 0.953716950748",
+                                      "0.258819045103, 0, 0.965925826289"));
+  folder.write("scenario.toml", replaced(kCardScenario, "TARGETS", targets) +
+                                    replaced(kCardSensor, "CAMERA", "left") +
+                                    replaced(kCardSensor, "CAMERA", "right"));
+  Told told = folder.omma("simulate scenario.toml --out frames");
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  told =
+      folder.omma("calibrate rig --rig guess.toml --targets " + targets + " --recording frames --output out");
+  // The card moves here and the rig stands still; seen from the rig that is the same.
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto json = nlohmann::json::parse(folder.read("out/calibration.json"));
+  EXPECT_EQ(json["images"], 10);
+  EXPECT_EQ(json["views"], 10);
+  EXPECT_NEAR(json["cameras"][1]["translation_m"][0].get<double>(), 0.1, 5e-4);
+  EXPECT_NEAR(json["cameras"][1]["translation_m"][2].get<double>(), 0, 5e-4);
+  EXPECT_NEAR(json["cameras"][1]["quaternion_xyzw"][1].get<double>(), 0.300705799504, 3e-4);
+  EXPECT_LT(json["rms_px"].get<double>(), 0.15);
+  EXPECT_THAT(folder.read("out/rig.toml"), HasSubstr("omma calibrate rig"));
+  EXPECT_EQ(folder.omma("design --rig out/rig.toml").exit_code, 0);  // it reads back
+}
+
+TEST(CalibrateRig, RefusesWhatMakesNoSense) {
+  const OperatorsFolder folder;
+  const std::string rig = OMMA_SOURCE_DIR "/config/rigs/dissertation.toml";
+  const std::string targets = " --targets " OMMA_SOURCE_DIR "/config/targets/docking_card.tsv";
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Told told = folder.omma("calibrate rig " + arguments);
+    EXPECT_EQ(told.exit_code, 2) << arguments;
+    EXPECT_THAT(told.err, HasSubstr(sentence)) << arguments;
+  };
+  refused("--rig " + rig + targets, "CAMERA=IMAGE... or --recording");
+  refused("--rig " OMMA_SOURCE_DIR "/config/rigs/hdr1.toml" + targets + " hdr1=a.png",
+          "at least two cameras");
+  refused("--rig " + rig + targets + " cam9=a.png", "cam9");
+  refused("--rig " + rig + targets + " hdr1=a.png", "a.png");
+  refused("--rig " + rig + targets + " --recording nowhere", "a folder for every camera");
+  refused("--rig " + rig + " --targets none.tsv hdr1=a.png", "none.tsv");
+}
+
 TEST(CalibrateLens, BeatsTheFigureOfOpenCvOnRealCornersAndOnViewsKeptApart) {
   if (!fs::exists(kBoards)) GTEST_SKIP() << "no " << kBoards;
   const OperatorsFolder folder;

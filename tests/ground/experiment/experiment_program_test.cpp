@@ -79,6 +79,44 @@ TEST(Docking, RefusesAScenarioWithoutACardAndAMissionWithoutABody) {
   EXPECT_EQ(folder.omma("experiment repetition" + kDocking + " --trials 1 --output run").exit_code, 2);
 }
 
+const std::string kDynamicRange = " --scenario " + kConfig + "dynamic_range_scenario.toml";
+
+// Two frames and one blacklevel: the dimmest star of one frame, without and with the lamp. With the lamp
+// stars are few, and one more or less is half a magnitude.
+TEST(DynamicRange, ShowsTheDissertationsDimmestStars) {
+  const OperatorsFolder folder;
+  const Told told =
+      folder.omma("experiment dynamic-range" + kDynamicRange + " --frames 2 --blacklevels 157 --output run");
+  ASSERT_EQ(told.exit_code, 0) << told.out << told.err;
+  const auto json = nlohmann::json::parse(folder.read("run/dynamic_range.json"));
+  ASSERT_EQ(json["sequences"].size(), 2U);
+  EXPECT_NEAR(json["sequences"][0]["limits"][2]["dimmest_v"].get<double>(), 4.25, 0.3);
+  EXPECT_NEAR(json["sequences"][1]["limits"][2]["dimmest_v"].get<double>(), 2.2, 0.7);
+  EXPECT_EQ(json["transit"].size(), 8U);
+  EXPECT_THAT(folder.read("run/dynamic_range.html"), HasSubstr("data:image/png;base64,"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run/b157_lamp_darken.png"));
+}
+
+TEST(DynamicRange, RefusesWhatItCannotUse) {
+  const OperatorsFolder folder;
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Told told = folder.omma("experiment dynamic-range --output run " + arguments);
+    EXPECT_EQ(told.exit_code, 2) << arguments;
+    EXPECT_THAT(told.err, HasSubstr(sentence)) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(folder / "run")) << arguments;
+  };
+  refused("", "--scenario or --recorded");
+  refused("--scenario " + kConfig + "docking_scenario.toml", "a logarithmic sensor");
+  refused("--recorded images", "the camera's lens file");
+  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
+          "a folder of images");
+  std::filesystem::create_directories(folder / "images");
+  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
+          "at least one PNG");
+  folder.write("images/a.png", "no picture");
+  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt", "a.png");
+}
+
 TEST(EarthRotation, RefusesWhatMakesNoSense) {
   const OperatorsFolder folder;
   EXPECT_EQ(folder.omma("experiment").exit_code, 2);

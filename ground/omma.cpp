@@ -19,7 +19,7 @@
 #include "ground/feed/feed.hpp"
 #include "ground/images/images.hpp"
 #include "ground/monitor/monitor.hpp"
-#include "ground/motion/compare_motion.hpp"
+#include "ground/compare_motion/compare_motion.hpp"
 #include "ground/motion/motion.hpp"
 #include "ground/objects/objects.hpp"
 #include "ground/record/record.hpp"

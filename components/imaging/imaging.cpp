@@ -54,7 +54,8 @@ void Imaging::skipped(const Tick& /*tick*/) noexcept {
 }
 
 CommandOutcome Imaging::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
-  next_row_ = height();
+  between_ = true;
+  asked_ = false;
   frame_sets_ = parameters_.period;
   return CommandOutcome::done();
 }

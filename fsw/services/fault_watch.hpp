@@ -41,13 +41,13 @@ constexpr bool is_well_formed(const FaultRule& rule) {
 }
 
 inline constexpr EventDescriptor kFaultFound{
-    .id = 62,
+    .id = 72,
     .severity = EventSeverity::kFailure,
     .name = "fault_found",
     .text = "fault rule {0}: its channel is at {1}; reaction: {2}",
     .values = {{{"rule"}, {"value"}, {"reaction", "", "none but this|safe mode|a command"}}},
     .burst = 16};
-inline constexpr EventDescriptor kFaultGone{.id = 63,
+inline constexpr EventDescriptor kFaultGone{.id = 73,
                                             .severity = EventSeverity::kActivity,
                                             .name = "fault_gone",
                                             .text = "fault rule {0}: its condition holds no longer",

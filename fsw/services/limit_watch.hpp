@@ -38,20 +38,20 @@ constexpr bool is_well_formed(const LimitDescriptor& limit) {
 enum class LimitState : std::uint8_t { kInside, kWarning, kAlarm };
 
 inline constexpr EventDescriptor kLimitWarning{
-    .id = 64,
+    .id = 74,
     .severity = EventSeverity::kWarning,
     .name = "limit_warning",
     .text = "limit {0}: channel {1} is at {2}, beyond its warning limit",
     .values = {{{"limit"}, {"channel"}, {"value"}}},
     .burst = 16};
 inline constexpr EventDescriptor kLimitAlarm{
-    .id = 65,
+    .id = 75,
     .severity = EventSeverity::kFailure,
     .name = "limit_alarm",
     .text = "limit {0}: channel {1} is at {2}, beyond its alarm limit",
     .values = {{{"limit"}, {"channel"}, {"value"}}},
     .burst = 16};
-inline constexpr EventDescriptor kLimitInside{.id = 66,
+inline constexpr EventDescriptor kLimitInside{.id = 76,
                                               .severity = EventSeverity::kActivity,
                                               .name = "limit_inside",
                                               .text = "limit {0}: channel {1} is back inside, at {2}",

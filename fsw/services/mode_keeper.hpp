@@ -60,7 +60,7 @@ inline constexpr std::string_view kModeCauses =
     "its guard|command|a fault rule|a budget that keeps being broken";
 
 inline constexpr EventDescriptor kModeEntered{
-    .id = 61,
+    .id = 71,
     .severity = EventSeverity::kActivity,
     .name = "mode_entered",
     .text = "mode {0} entered from {1}: by {2}",

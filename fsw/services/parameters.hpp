@@ -38,7 +38,7 @@ inline constexpr std::array kParameterCommands{kSetParameter, kCommitParameters,
                                                kMissionParameters};
 
 inline constexpr EventDescriptor kParametersCommitted{
-    .id = 60,
+    .id = 70,
     .severity = EventSeverity::kActivity,
     .name = "parameters_committed",
     .text = "parameter set {0} is in force, with {1} values changed",

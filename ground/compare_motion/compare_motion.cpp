@@ -1,4 +1,4 @@
-#include "ground/motion/compare_motion.hpp"
+#include "ground/compare_motion/compare_motion.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "fsw/services/toml_table.hpp"
-#include "ground/motion/motion_report.hpp"
+#include "ground/compare_motion/motion_report.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {

@@ -1,4 +1,4 @@
-#include "ground/motion/motion_match.hpp"
+#include "ground/compare_motion/motion_match.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

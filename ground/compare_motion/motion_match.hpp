@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "ground/motion/timed_poses.hpp"
+#include "ground/compare_motion/timed_poses.hpp"
 
 namespace omma::ground {
 

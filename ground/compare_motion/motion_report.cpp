@@ -1,4 +1,4 @@
-#include "ground/motion/motion_report.hpp"
+#include "ground/compare_motion/motion_report.hpp"
 
 #include <nlohmann/json.hpp>
 #include <numbers>

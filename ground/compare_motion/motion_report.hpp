@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ground/motion/motion_match.hpp"
+#include "ground/compare_motion/motion_match.hpp"
 
 namespace omma::ground {
 

@@ -1,4 +1,4 @@
-#include "ground/motion/timed_poses.hpp"
+#include "ground/compare_motion/timed_poses.hpp"
 
 #include <cmath>
 #include <fstream>

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "ground/experiment/earth_fixed.hpp"
-#include "ground/motion/motion_match.hpp"
+#include "ground/compare_motion/motion_match.hpp"
 
 namespace omma::ground {
 namespace {

@@ -19,6 +19,8 @@
 #pragma once
 
 #include <array>
+#include <utility>
+#include <vector>
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
@@ -34,6 +36,12 @@
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
+
+/// An event of an earlier run of the program, kept by the event store.
+struct EarlierEvent {
+  EventRecord record;
+  std::uint32_t runs_ago = 1;
+};
 
 class Telemetry final : public Component {
  public:
@@ -57,6 +65,9 @@ class Telemetry final : public Component {
   /// The stamps of the frame set's way; made known before the run. Without, no frame_timing is sent.
   void time_frames(const telemetry::FrameStages& stages) { stages_ = &stages; }
 
+  /// Before the run: sent in front of this run's own events.
+  void tell_earlier(std::vector<EarlierEvent> events) { earlier_ = std::move(events); }
+
   /// After the scheduler has returned: sends a report of the events that came after the last frame set. False
   /// when none are left. (TelemetryOutput::stop does this.)
   bool send_rest() noexcept;
@@ -72,6 +83,7 @@ class Telemetry final : public Component {
   void add_housekeeping(Report& report) noexcept;
   void add_stages(Report& report) noexcept;
   void add_events(Report& report) noexcept;
+  bool take_event(telemetry::EventSample& event) noexcept;
   void count_dropped() noexcept;
   template <class Sample>
   void add(Report& report, Sample& sample, std::uint32_t& number) noexcept;
@@ -92,6 +104,8 @@ class Telemetry final : public Component {
   TimeNs utc_time_ns_ = 0;
   bool has_utc_ = false;
   const telemetry::FrameStages* stages_ = nullptr;
+  std::vector<EarlierEvent> earlier_;
+  std::size_t earlier_sent_ = 0;
 };
 
 }  // namespace omma

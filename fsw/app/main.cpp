@@ -5,12 +5,14 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <string>
 
 #include "components/telemetry/dds_sink.hpp"
 #include "components/telemetry/log_sink.hpp"
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/flight_records.hpp"
+#include "fsw/app/lifeline.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/run_summary.hpp"
@@ -21,6 +23,7 @@
 #include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/services/schedule_events.hpp"
+#include "hal/linux_watchdog/linux_watchdog.hpp"
 
 namespace {
 
@@ -29,6 +32,9 @@ struct Arguments {
   std::string frames;
   std::string log;
   std::string trace;
+  std::string events;
+  std::string watchdog;
+  int watchdog_timeout_s = 10;
   std::uint64_t frame_sets = 0;
   int workers = 1;
   bool real_time = false;
@@ -48,6 +54,13 @@ extern "C" void stop_running(int /*signal*/) {
 
 extern "C" void write_trace(int /*signal*/) {
   if (recording != nullptr) recording->trace().request();
+}
+
+/// What was raised until now is not lost with the program.
+extern "C" void end_badly(int signal) {
+  std::signal(signal, SIG_DFL);
+  if (recording != nullptr) recording->save_events(signal);
+  std::raise(signal);
 }
 
 void say(const std::vector<std::string>& sentences) {
@@ -90,17 +103,26 @@ int fly(const Arguments& arguments) {
   omma::MonotonicClock monotonic;
   omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
   omma::ScheduleEvents schedule_events(topology.events);
-  omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
+  omma::FlightRecords records(table, clock.lockstep(), topology.events,
+                              {.trace = arguments.trace, .events = arguments.events});
+  say(records.notices());
   omma::telemetry::FrameStages stages(table, topology.stage_ends(), clock.lockstep());
   omma::ScheduleObservers observers{&schedule_events, &records.recorder(), &stages};
   omma::Scheduler scheduler(table, clock, observers);
   topology.health.observe(scheduler);
   topology.telemetry.time_frames(stages);
+  topology.telemetry.tell_earlier(records.earlier());
   omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
   output.judge_latency(topology.latency_budgets(), clock.lockstep() ? nullptr : &topology.events);
   add_sinks(arguments, mission, output);
   lockstep.before_each_tick([&output] { output.wait_for_room(); });
   if (real_time) say(omma::lock_process_memory());
+  // Opening arms it: last, so that a program that cannot start is no reason for a reset.
+  std::unique_ptr<omma::Watchdog> watchdog;
+  if (!arguments.watchdog.empty())
+    watchdog = std::make_unique<omma::LinuxWatchdog>(arguments.watchdog, arguments.watchdog_timeout_s);
+  omma::Lifeline lifeline(scheduler, topology.events, std::move(watchdog),
+                          omma::ServiceNotice::from_environment(), clock.lockstep());
   output.start();
   records.add_chore([&topology] { topology.utc.ask_system(); });
   records.start();
@@ -110,14 +132,18 @@ int fly(const Arguments& arguments) {
   std::signal(SIGINT, stop_running);
   std::signal(SIGTERM, stop_running);
   std::signal(SIGUSR1, write_trace);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, end_badly);
+  lifeline.start();
   scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
   running = nullptr;
+  const std::string armed = lifeline.stop();
   recording = nullptr;
   output.stop();
 
   say(topology.refusals());
   say(scheduler.refusals());
   say(output.failures());
+  if (!armed.empty()) say({armed});
   say(records.stop());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);
   return 0;
@@ -139,6 +165,13 @@ int main(int argc, char** argv) {
       "--trace", arguments.trace,
       "file (JSON, for ui.perfetto.dev) for the flight recorder: written at the end and on SIGUSR1; "
       "slips have files beside it");
+  app.add_option("--events", arguments.events,
+                 "file of the event store: events survive in it to the next start, which tells them again");
+  app.add_option(
+      "--watchdog", arguments.watchdog,
+      "watchdog device (/dev/watchdog), stroked while the critical rate groups meet their deadlines");
+  app.add_option("--watchdog-timeout", arguments.watchdog_timeout_s, "of the watchdog [s]")
+      ->check(CLI::Range(1, 3600));
   app.add_flag("--no-dds", arguments.no_dds, "publish nothing");
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));

@@ -8,6 +8,8 @@
 
 #include "components/camera/camera_events.hpp"
 #include "components/telemetry/frame_latency.hpp"
+#include "fsw/app/flight_records.hpp"
+#include "fsw/app/lifeline.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/services/event.hpp"
 #include "fsw/services/schedule_events.hpp"
@@ -29,7 +31,8 @@ constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
 
 /// Every event this program can raise.
 inline constexpr auto kEvents =
-    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents);
+    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents,
+           kStoreEvents, kRecordEvents, kLifelineEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// One JSON object.

@@ -102,6 +102,7 @@ RateGroupTable Topology::table() {
   return {.base_period = period,
           .groups = {{.name = "vision",
                       .priority = kVisionPriority,
+                      .critical = true,
                       .components = {{sync_trigger, microseconds(100)},
                                      {cameras, microseconds(2000)},
                                      {extractor, microseconds(10000), {}, pool_.workers()},

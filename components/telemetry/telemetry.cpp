@@ -204,7 +204,7 @@ void Telemetry::add_parameters(Report& report) noexcept {
 
 void Telemetry::add_events(Report& report) noexcept {
   for (telemetry::EventSample& event : report.events) {
-    if (!events_.take(event.record)) return;
+    if (!take_event(event)) return;
     const EventRecord& record = event.record;
     event.sample.frame = frame_;
     event.sample.time_ns = record.time_ns;
@@ -212,11 +212,19 @@ void Telemetry::add_events(Report& report) noexcept {
     event.sample.valid = true;
     event.sample.id = record.id;
     event.sample.severity = static_cast<omma_EventSeverity>(record.severity);
-    event.sample.runs_ago = 0;
     event.sample.held_back = record.held_back;
     event.sample.values._length = record.value_count;
     report.entries.push_back({.topic = TopicId::kEvent, .sample = &event.sample, .event = &event});
   }
+}
+
+bool Telemetry::take_event(telemetry::EventSample& event) noexcept {
+  event.sample.runs_ago = 0;
+  if (earlier_sent_ == earlier_.size()) return events_.take(event.record);
+  event.record = earlier_[earlier_sent_].record;
+  event.sample.runs_ago = earlier_[earlier_sent_].runs_ago;
+  ++earlier_sent_;
+  return true;
 }
 
 // What was not sent has a number all the same, so that the ground sees the gap. Events, health and timing are

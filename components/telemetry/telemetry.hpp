@@ -20,6 +20,8 @@
 
 #include <array>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
@@ -42,6 +44,12 @@
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
+
+/// An event of an earlier run of the program, kept by the event store.
+struct EarlierEvent {
+  EventRecord record;
+  std::uint32_t runs_ago = 1;
+};
 
 class Telemetry final : public Component {
  public:
@@ -75,6 +83,9 @@ class Telemetry final : public Component {
   /// The stamps of the frame set's way; made known before the run. Without, no frame_timing is sent.
   void time_frames(const telemetry::FrameStages& stages) { stages_ = &stages; }
 
+  /// Before the run: sent in front of this run's own events.
+  void tell_earlier(std::vector<EarlierEvent> events) { earlier_ = std::move(events); }
+
   /// After the scheduler has returned: sends a report of the events that came after the last frame set. False
   /// when none are left. (TelemetryOutput::stop does this.)
   bool send_rest() noexcept;
@@ -94,6 +105,7 @@ class Telemetry final : public Component {
   telemetry::SpacecraftStatus status() const noexcept;
   void add_status(Report& report, bool due) noexcept;
   void add_parameters(Report& report) noexcept;
+  bool take_event(telemetry::EventSample& event) noexcept;
   void count_dropped() noexcept;
   template <class Sample>
   void add(Report& report, Sample& sample, std::uint32_t& number) noexcept;
@@ -119,6 +131,8 @@ class Telemetry final : public Component {
   telemetry::SpacecraftStatus sent_status_;
   std::uint32_t sent_parameters_ = 0;
   bool has_parameters_ = false;
+  std::vector<EarlierEvent> earlier_;
+  std::size_t earlier_sent_ = 0;
 };
 
 }  // namespace omma

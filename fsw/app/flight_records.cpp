@@ -20,9 +20,11 @@ FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, Events&
       recorder_(table, lockstep),
       trace_(trace_at_end_ ? files.trace : kDefaultTrace,
              trace_at_end_ ? SlipDumps::kWritten : SlipDumps::kNone, recorder_, events, kEvents),
+      events_(events),
       chores_(kPeriod) {
   if (trace_at_end_)  // whether it can be written shows now, not at the end
     if (const std::string failure = trace_.write(); !failure.empty()) throw std::runtime_error(failure);
+  if (!files.events.empty()) store_ = std::make_unique<EventStore>(files.events, events);
   chores_.add([this] { trace_.serve(MonotonicClock().now()); });
 }
 
@@ -31,6 +33,33 @@ CommandOutcome FlightRecords::receive(const Command& /*command*/, const Tick& /*
   if (lockstep_) return CommandOutcome::refused(CommandReason::kRefused);
   trace_.request();
   return CommandOutcome::done();
+}
+
+std::vector<EarlierEvent> FlightRecords::earlier() const {
+  std::vector<EarlierEvent> told;
+  if (store_ == nullptr) return told;
+  for (const StoredEvent& event : store_->earlier())
+    if (event.run + 1 == store_->run()) told.push_back({event.moment.record, 1});
+  if (told.size() > kEarlierEvents) told.erase(told.begin(), told.end() - kEarlierEvents);
+  return told;
+}
+
+std::vector<std::string> FlightRecords::notices() const {
+  if (store_ == nullptr || store_->notice().empty()) return {};
+  return {store_->notice()};
+}
+
+void FlightRecords::save_events(int signal) noexcept {
+  events_.raise<kFatalSignal>(Tick{.number = 0, .time_ns = MonotonicClock().now()}, signal);
+  if (store_ != nullptr) store_->serve();
+}
+
+void FlightRecords::start() {
+  if (store_ != nullptr) {
+    store_->begin({});
+    chores_.add([this] { store_->serve(); });
+  }
+  chores_.start();
 }
 
 std::vector<std::string> FlightRecords::stop() {

@@ -14,6 +14,7 @@
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/attendant.hpp"
 #include "fsw/app/flight_records.hpp"
+#include "fsw/app/lifeline.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/run_summary.hpp"
@@ -24,6 +25,7 @@
 #include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/services/schedule_events.hpp"
+#include "hal/linux_watchdog/linux_watchdog.hpp"
 
 namespace {
 
@@ -34,6 +36,9 @@ struct Arguments {
   std::string trace;
   std::string commands;
   std::string parameters;
+  std::string events;
+  std::string watchdog;
+  int watchdog_timeout_s = 10;
   std::uint64_t frame_sets = 0;
   int workers = 1;
   bool real_time = false;
@@ -58,6 +63,13 @@ extern "C" void write_trace(int /*signal*/) {
 
 extern "C" void stop_moving(int /*signal*/) {
   if (moving != nullptr) moving->emergency_stop();
+}
+
+/// What was raised until now is not lost with the program.
+extern "C" void end_badly(int signal) {
+  std::signal(signal, SIG_DFL);
+  if (recording != nullptr) recording->save_events(signal);
+  std::raise(signal);
 }
 
 void say(const std::vector<std::string>& sentences) {
@@ -107,7 +119,9 @@ int fly(const Arguments& arguments) {
   omma::MonotonicClock monotonic;
   omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
   omma::ScheduleEvents schedule_events(topology.events, &topology.mode_keeper);
-  omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
+  omma::FlightRecords records(table, clock.lockstep(), topology.events,
+                              {.trace = arguments.trace, .events = arguments.events});
+  say(records.notices());
   topology.commander.bind(omma::kFlightRecordCommands, records);
   if (const auto unbound = topology.commander.unbound(omma::kCommands); !unbound.empty())
     throw std::logic_error(unbound.front());
@@ -116,6 +130,7 @@ int fly(const Arguments& arguments) {
   omma::Scheduler scheduler(table, clock, observers);
   topology.health.observe(scheduler);
   topology.telemetry.time_frames(stages);
+  topology.telemetry.tell_earlier(records.earlier());
   omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()},
                                topology.vocabulary());
   output.judge_latency(topology.latency_budgets(), clock.lockstep() ? nullptr : &topology.events);
@@ -125,6 +140,12 @@ int fly(const Arguments& arguments) {
     uplink.save();
   });
   if (real_time) say(omma::lock_process_memory());
+  // Opening arms it: last, so that a program that cannot start is no reason for a reset.
+  std::unique_ptr<omma::Watchdog> watchdog;
+  if (!arguments.watchdog.empty())
+    watchdog = std::make_unique<omma::LinuxWatchdog>(arguments.watchdog, arguments.watchdog_timeout_s);
+  omma::Lifeline lifeline(scheduler, topology.events, std::move(watchdog),
+                          omma::ServiceNotice::from_environment(), clock.lockstep());
   output.start();
   records.add_chore([&topology] { topology.utc.ask_system(); });
   records.start();
@@ -142,8 +163,11 @@ int fly(const Arguments& arguments) {
   std::signal(SIGTERM, stop_running);
   std::signal(SIGUSR1, write_trace);
   std::signal(SIGUSR2, stop_moving);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, end_badly);
+  lifeline.start();
   scheduler.run(topology.ticks(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets()));
   running = nullptr;
+  const std::string armed = lifeline.stop();
   recording = nullptr;
   moving = nullptr;
   attendant.stop();
@@ -155,6 +179,7 @@ int fly(const Arguments& arguments) {
   if (topology.servo() != nullptr) say(topology.servo()->complaints());
   if (topology.trigger_line() != nullptr) say(topology.trigger_line()->complaints());
   say(output.failures());
+  if (!armed.empty()) say({armed});
   say(records.stop());
   std::fputs(omma::run_summary(scheduler).c_str(), stdout);
   return 0;
@@ -180,6 +205,13 @@ int main(int argc, char** argv) {
                  "file of commands, one a line: number of a frame set, command, values");
   app.add_option("--parameters", arguments.parameters,
                  "folder of saved parameters: they override the mission's, and commits are saved there");
+  app.add_option("--events", arguments.events,
+                 "file of the event store: events survive in it to the next start, which tells them again");
+  app.add_option(
+      "--watchdog", arguments.watchdog,
+      "watchdog device (/dev/watchdog), stroked while the critical rate groups meet their deadlines");
+  app.add_option("--watchdog-timeout", arguments.watchdog_timeout_s, "of the watchdog [s]")
+      ->check(CLI::Range(1, 3600));
   app.add_flag("--no-dds", arguments.no_dds, "publish nothing, take no commands from the ground");
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));

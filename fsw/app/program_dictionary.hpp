@@ -12,6 +12,7 @@
 #include "components/telemetry/frame_latency.hpp"
 #include "components/tracker/tracker.hpp"
 #include "fsw/app/flight_records.hpp"
+#include "fsw/app/lifeline.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/services/commander.hpp"
 #include "fsw/services/event.hpp"
@@ -21,9 +22,10 @@
 namespace omma {
 
 /// Every event this program can raise.
-inline constexpr auto kEvents = joined(
-    kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents, kMotionEvents,
-    kSyncTriggerEvents, kTriggerWatchEvents, kParameterEvents, kModeEvents, kFaultEvents, kLimitEvents);
+inline constexpr auto kEvents =
+    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents,
+           kMotionEvents, kSyncTriggerEvents, kTriggerWatchEvents, kParameterEvents, kModeEvents,
+           kFaultEvents, kLimitEvents, kStoreEvents, kRecordEvents, kLifelineEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// Every command it takes.

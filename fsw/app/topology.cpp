@@ -184,6 +184,7 @@ RateGroupTable Topology::table() {
       .groups = {{.name = "vision",
                   .divisor = base_ticks,
                   .priority = kVisionPriority,
+                  .critical = true,
                   .components = {{commander, microseconds(100)},
                                  {parameters, microseconds(100)},
                                  {sync_trigger, microseconds(100)},

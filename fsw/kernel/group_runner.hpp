@@ -57,6 +57,8 @@ class GroupRunner {
   void serve_tick(std::uint64_t tick_number) noexcept;
 
   const RateGroup& group() const { return group_; }
+  /// From one beat to the next.
+  TimeNs period_ns() const { return base_period_ * static_cast<TimeNs>(group_.divisor); }
   /// Beats that are due on base ticks before `tick`.
   std::uint64_t beats_before(std::uint64_t tick) const { return grid_.beats_before(tick); }
   const GroupTiming& timing() const { return timing_; }

@@ -33,6 +33,7 @@ struct RateGroup {
   std::uint32_t offset = 0;   ///< base ticks from start to the first beat, less than `divisor`
   int priority = 0;           ///< SCHED_FIFO 1 to 99; 0: an ordinary thread
   int core = kAnyCore;        ///< processor it is tied to
+  bool critical = false;      ///< the watchdog is stroked only while it meets its deadlines
   std::vector<ScheduledComponent> components{};  ///< in the order they run
 };
 

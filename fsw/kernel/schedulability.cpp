@@ -192,7 +192,7 @@ std::string schedule_text(const RateGroupTable& table, int processors) {
     line("%-20.20s %13s %10s %10s %9d %5s %6s%s\n", std::string(group.name).c_str(),
          milliseconds(response.period_ns).c_str(), milliseconds(response.budget_ns).c_str(), longest.c_str(),
          group.priority, core.c_str(), percent(response.utilisation).c_str(),
-         response.holds ? "" : "  DOES NOT HOLD");
+         response.holds ? group.critical ? "  critical" : "" : "  DOES NOT HOLD");
     for (const ScheduledComponent& scheduled : group.components) {
       const BudgetRule& rule = scheduled.on_breach;
       const std::string budget = scheduled.budget.count() > 0 ? milliseconds(scheduled.budget.count()) : "-";

@@ -44,6 +44,7 @@ void write_group(JsonText& json, const RateGroup& group, std::chrono::nanosecond
   json.key("offset_s").number(static_cast<double>(base_period.count()) * group.offset / 1e9);
   json.key("priority").number(group.priority);
   if (group.core != kAnyCore) json.key("core").number(group.core);
+  json.key("critical").boolean(group.critical);
   json.key("components").open_array();
   for (const ScheduledComponent& scheduled : group.components) {
     json.open_object().key("name").string(scheduled.component.name());

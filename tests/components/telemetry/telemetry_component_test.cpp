@@ -349,6 +349,30 @@ TEST_F(TelemetryTest, EventsAfterTheLastFrameSetAreSentAtTheEnd) {
   EXPECT_EQ(events, 101);
 }
 
+TEST_F(TelemetryTest, EventsOfTheRunBeforeAreToldFirst) {
+  {
+    Flight flight;
+    std::vector<EarlierEvent> earlier;
+    for (int n = 0; n < 20; ++n)  // more than one report holds
+      earlier.push_back({{.time_ns = 5, .id = kTested.id, .value_count = 1, .values = {100.0 + n}}, 1});
+    flight.telemetry.tell_earlier(std::move(earlier));
+    flight.output.add(std::make_unique<LogSink>(path_, "testsat", false));
+    flight.output.start();
+    for (std::uint64_t frame = 0; frame < 2; ++frame) flight.step(frame);
+    flight.output.stop();
+  }
+  ground::Recording recording(path_);
+  std::vector<double> numbers;
+  recording.for_each<omma_Event>([&](const omma_Event& sample) {
+    EXPECT_EQ(sample.runs_ago, numbers.size() < 20 ? 1U : 0U);
+    EXPECT_EQ(sample.sample_number, numbers.size() + 1);
+    numbers.push_back(sample.values._buffer[0]);
+  });
+  ASSERT_EQ(numbers.size(), 22U);
+  EXPECT_EQ(numbers[19], 119);
+  EXPECT_EQ(numbers[20], 0);
+}
+
 TEST_F(TelemetryTest, EventNobodyDeclaredIsSentWithItsNumber) {
   const auto flight = std::make_unique<Flight>();
   TelemetryOutput output(flight->telemetry, {});

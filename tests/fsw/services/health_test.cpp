@@ -135,7 +135,7 @@ TEST(Dictionary, ListsEventsGroupsAndConnections) {
   EXPECT_THAT(
       json,
       HasSubstr(
-          R"({"name":"g","period_s":0.01,"offset_s":0,"priority":0,"components":[{"name":"source","budget_s":0.001)"));
+          R"({"name":"g","period_s":0.01,"offset_s":0,"priority":0,"critical":false,"components":[{"name":"source","budget_s":0.001)"));
   EXPECT_THAT(
       json,
       HasSubstr(R"([{"from":"source.number","to":"sink.number","by":"reference","previous_tick":false}])"));

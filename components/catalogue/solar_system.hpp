@@ -49,7 +49,7 @@ using SolarSystem = std::array<SolarBodyPlace, kSolarBodies>;
 /// How far the observer may stand from where it is said to be, each axis: a low orbit nobody told about [m].
 inline constexpr double kUnknownOrbit = 4.0e6;
 
-/// All nine, in the order of SolarBody. About 30 µs; nothing is allocated.
+/// All nine, in the order of SolarBody. Nothing is allocated.
 /// @param observer        with the epoch; a site gives its parallax: 1° of the Moon's
 /// @param position_sigma  of the observer's position, each axis [m]
 /// @param position        of the observer from the centre of the Earth, J2000 axes [m]; unknown: the site's,

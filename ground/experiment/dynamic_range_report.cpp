@@ -138,7 +138,7 @@ std::string dynamic_range_page(const DynamicRangeResult& r) {
         r.recorded ? ""
                    : format("; the dissertation has V %.2f", lamp ? kDissertationLamp : kDissertationDimmest);
     figures += figure("V " + magnitude(dimmest_of(r, lamp, kSingle)),
-                      "dimmest star in single frames" + where + there);
+                      format("dimmest star in single frames%s%s", where.c_str(), there.c_str()));
     const double half = half_of(r, lamp, kAveraged);
     figures += figure("V " + magnitude(half),
                       "half of the stars this bright are found in the average of the frames" + where);

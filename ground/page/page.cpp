@@ -20,7 +20,7 @@ main{max-width:1360px;margin:0 auto;padding:28px 24px 60px}h1{font-size:26px;mar
 p.lead{color:var(--soft);margin:4px 0 20px}.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:12px}
 .figure{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:12px 14px}
 .figure b{display:block;font-size:25px;font-weight:600;letter-spacing:-.01em}.figure span{color:var(--soft);font-size:13px}
-.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(340px,1fr));gap:14px}
+.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(340px,100%),1fr));gap:14px}
 .charts svg,img{width:100%;background:var(--card);border:1px solid var(--line);border-radius:8px}.charts svg{padding:8px}
 svg .title{font:600 13px system-ui;fill:var(--ink)}svg .unit,svg .tick{font:11px system-ui;fill:var(--soft);font-weight:400}
 svg .grid{stroke:var(--line)}svg .band{fill:var(--band)}svg .in{fill:var(--a)}svg .out{fill:var(--out)}
@@ -31,7 +31,10 @@ table.wide{width:100%}td,th{padding:5px 14px;text-align:right;border-top:1px sol
 td:first-child,th:first-child{text-align:left}th{color:var(--soft);font-weight:500}figure{margin:0 0 18px}
 figcaption{color:var(--soft);font-size:13px;margin-top:4px}.scroll{overflow-x:auto}.note{color:var(--soft);font-size:13px;max-width:90ch}
 svg .point{stroke:none}svg .point.a{fill:var(--a)}svg .point.b{fill:var(--b)}svg .c{stroke:#2e8b57;color:#2e8b57}svg .point.c,svg .label.c{fill:#2e8b57;stroke:none}svg .line.c{stroke:#2e8b57}
-svg.zoomed{cursor:grab;touch-action:none}@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--card:#fff;--a:#0b6bcb;--b:#c2570c}figure,svg,table{break-inside:avoid}}
+svg.zoomed{cursor:grab;touch-action:none}@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--card:#fff;--a:#0b6bcb;--b:#c2570c}figure,svg,.figure,tr{break-inside:avoid}h2{break-after:avoid}
+main{max-width:none;padding:0}body{font-size:10pt}.charts{grid-template-columns:1fr 1fr}.figures{grid-template-columns:repeat(4,1fr)}.figure b{font-size:15pt}
+.scroll{overflow:visible}td,th{padding:3px 8px}img{max-height:180mm;object-fit:contain}}
+@media(max-width:600px){main{padding:18px 12px 40px}td,th{padding:5px 6px}table{font-size:13px}.figures{grid-template-columns:1fr 1fr}.figure b{font-size:21px}}
 )";
 
 // Charts zoom: the wheel (or two clicks) zooms about the pointer, dragging moves, Escape shows all again.

@@ -59,8 +59,8 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
       const omma_Event* event = nullptr;
       sound = keep(event_reader_, cdr, event);
       if (!sound) break;
-      add_event(event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name,
-                event->runs_ago);
+      add_event({event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name,
+                 event->runs_ago});
       break;
     }
     case TopicId::kCommandAck: {
@@ -68,7 +68,7 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
       sound = keep(ack_reader_, cdr, ack);
       if (!sound) break;
       const bool good = ack->stage == omma_COMMAND_ACCEPTED || ack->stage == omma_COMMAND_COMPLETED;
-      add_event(ack->time_ns, good ? omma_EVENT_ACTIVITY : omma_EVENT_WARNING, ack->text);
+      add_event({ack->time_ns, good ? omma_EVENT_ACTIVITY : omma_EVENT_WARNING, ack->text, 0});
       break;
     }
     case TopicId::kStatus:
@@ -86,9 +86,8 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
     ++undecodable_;
 }
 
-void NewestSamples::add_event(std::int64_t time_ns, omma_EventSeverity severity, const char* text,
-                              std::uint32_t runs_ago) {
-  events_.push_back({time_ns, severity, text, runs_ago});
+void NewestSamples::add_event(EventLine line) {
+  events_.push_back(std::move(line));
   if (events_.size() > kEvents) events_.pop_front();
 }
 

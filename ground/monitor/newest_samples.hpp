@@ -52,8 +52,7 @@ class NewestSamples {
   std::uint64_t undecodable() const { return undecodable_; }
 
  private:
-  void add_event(std::int64_t time_ns, omma_EventSeverity severity, const char* text,
-                 std::uint32_t runs_ago = 0);
+  void add_event(EventLine line);
 
   telemetry::CdrReader frame_set_reader_{telemetry::TopicId::kFrameSet};
   telemetry::CdrReader attitude_reader_{telemetry::TopicId::kAttitude};

@@ -321,7 +321,8 @@ TEST(Modes, GraphShowsEveryWayWithItsGuard) {
 /// Counts its steps and the beats in which it was left out.
 class Worker final : public Component {
  public:
-  std::string_view name() const override { return "worker"; }
+  explicit Worker(std::string_view name) : name_(name) {}
+  std::string_view name() const override { return name_; }
   void visit_ports(PortVisitor&) const override {}
   void step(const Tick& tick) noexcept override {
     ++steps;
@@ -331,13 +332,16 @@ class Worker final : public Component {
   std::atomic<std::uint32_t>* phase = nullptr;  // it changes, if given
   int steps = 0;
   int left_out = 0;
+
+ private:
+  std::string_view name_;
 };
 
 TEST(Modes, TheScheduleLeavesOutWhatDoesNotRunInAPhaseFromTheNextBeatOn) {
   std::atomic<std::uint32_t> phase{1};
-  Worker always;
-  Worker first;
-  Worker second;
+  Worker always("always");
+  Worker first("first");
+  Worker second("second");
   always.phase = &phase;
   LockstepClock clock;
   Scheduler scheduler({.base_period = std::chrono::milliseconds(1),

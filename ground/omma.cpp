@@ -23,6 +23,7 @@
 #include "ground/simulate/simulate.hpp"
 #include "ground/solve/solve.hpp"
 #include "ground/stars/stars.hpp"
+#include "ground/uplink/uplink.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Omma ground tools: solve photographs, design, simulate, calibrate, monitor, record, report."};
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   omma::ground::add_ideal_lens(app, context);
   omma::ground::add_monitor(app, context);
   omma::ground::add_record(app, context);
+  omma::ground::add_command(app, context);
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
   omma::ground::add_feed(app, context);

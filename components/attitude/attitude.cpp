@@ -16,24 +16,40 @@ double seconds(TimeNs interval_ns) {
 void Attitude::visit_ports(PortVisitor& visitor) const {
   visitor.input("pairings", pairings);
   if (uses_gyro()) visitor.input("rates", rates);
+  if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("estimate", estimate);
 }
 
 void Attitude::step(const Tick& /*tick*/) noexcept {
+  if (tuning.has_news()) {
+    take_parameters(*tuning, parameters_);
+    filter_.set_acceleration_density(parameters_.mekf.acceleration_density);
+  }
   solve_frame_set();
   if (parameters_.filter == AttitudeFilterKind::kMekf) filter_frame_set();
 }
 
-void Attitude::solve_frame_set() noexcept {
+void Attitude::skipped(const Tick& /*tick*/) noexcept {
+  withdraw();
+  estimate->filtered.valid = false;
+}
+
+// Until it is solved this frame set has no attitude.
+void Attitude::withdraw() noexcept {
   AttitudeEstimate& out = *estimate;
-  const SkyPairings& sky = pairings->sky;
   out.frame = pairings->frame;
   out.time_ns = pairings->time_ns;
   out.valid = false;
   out.rate_valid = false;
   out.solution = {};
   out.used.clear();
-  out.used.resize(sky.pairs.size());
+  out.used.resize(pairings->sky.pairs.size());
+}
+
+void Attitude::solve_frame_set() noexcept {
+  withdraw();
+  AttitudeEstimate& out = *estimate;
+  const SkyPairings& sky = pairings->sky;
   if (sky.state == TrackState::kLost) return;
 
   sights_.clear();

@@ -10,6 +10,7 @@
 #include "components/tracker/pairings.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
 
@@ -25,6 +26,25 @@ struct AttitudeParameters {
   int least_pairs = 4;  ///< fewer pairs after the cull give no attitude
 };
 
+inline constexpr ParameterDescriptor kAttitudeAccelerationDensity{
+    .id = 45,
+    .name = "attitude.acceleration_density",
+    .text = "white angular acceleration that nothing measures, density of each axis",
+    .value = {.name = "value", .unit = "rad/s1.5", .least = 1e-9, .most = 100}};
+inline constexpr ParameterDescriptor kAttitudeLeastPairs{
+    .id = 46,
+    .name = "attitude.least_pairs",
+    .text = "fewer pairs after the cull give no attitude",
+    .value = {.name = "value", .type = ValueType::kInteger, .least = 3, .most = 100}};
+
+inline constexpr std::array kAttitudeParameters{kAttitudeAccelerationDensity, kAttitudeLeastPairs};
+
+template <class Visit>
+void visit_parameters(AttitudeParameters& p, Visit&& visit) {
+  visit(kAttitudeAccelerationDensity, p.mekf.acceleration_density);
+  visit(kAttitudeLeastPairs, p.least_pairs);
+}
+
 class Attitude final : public Component {
  public:
   explicit Attitude(const AttitudeParameters& parameters)
@@ -32,13 +52,16 @@ class Attitude final : public Component {
 
   In<Pairings> pairings;
   In<RateMeasurements> rates;  ///< bound where the filter uses a gyro
+  ParameterInput tuning;
   Out<AttitudeEstimate> estimate;
 
   std::string_view name() const override { return "attitude"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
 
  private:
+  void withdraw() noexcept;
   void solve_frame_set() noexcept;
   void filter_frame_set() noexcept;
   void predict_to(TimeNs time_ns) noexcept;

@@ -34,6 +34,7 @@ enum class FilterUpdate : std::uint8_t {
 class AttitudeFilter {
  public:
   explicit AttitudeFilter(const AttitudeFilterParameters& parameters) : parameters_(parameters) {}
+  void set_acceleration_density(double density) noexcept { parameters_.acceleration_density = density; }
 
   void stop() noexcept { running_ = false; }
   bool running() const noexcept { return running_; }

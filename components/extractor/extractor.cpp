@@ -12,10 +12,13 @@ Extractor::Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool)
 
 void Extractor::visit_ports(PortVisitor& visitor) const {
   visitor.input("frames", frames);
+  if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("dots", dots);
 }
 
 void Extractor::step(const Tick& /*tick*/) noexcept {
+  if (tuning.has_news())
+    for (std::size_t c = 0; c < parameters_.size(); ++c) take_parameters(*tuning, parameters_[c], c);
   dots->frame = frames->number;
   dots->time_ns = frames->trigger_time_ns;
   pool_.run(static_cast<int>(extractors_.size()),
@@ -23,6 +26,18 @@ void Extractor::step(const Tick& /*tick*/) noexcept {
   // The frame set's time is that of its fresh frames; all cameras expose on one trigger.
   for (const DotList& list : dots->cameras) {
     if (list.status == FrameStatus::kFresh) dots->time_ns = list.time_ns;
+  }
+}
+
+void Extractor::skipped(const Tick& /*tick*/) noexcept {
+  dots->frame = frames->number;
+  dots->time_ns = frames->trigger_time_ns;
+  for (DotList& list : dots->cameras) {
+    list.frame = frames->number;
+    list.time_ns = frames->trigger_time_ns;
+    list.status = FrameStatus::kMissing;
+    list.dots.clear();
+    list.dropped = 0;
   }
 }
 

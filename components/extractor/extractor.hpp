@@ -9,9 +9,11 @@
 #include "components/camera/frames.hpp"
 #include "components/extractor/dot_extractor.hpp"
 #include "components/extractor/dot_lists.hpp"
+#include "components/extractor/extractor_tuning.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
 #include "fsw/kernel/worker_pool.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
 
@@ -29,11 +31,13 @@ class Extractor final : public Component {
   Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool);
 
   In<Frames> frames;
+  ParameterInput tuning;
   Out<DotLists> dots;
 
   std::string_view name() const override { return "extractor"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
 
  private:
   void extract_camera(std::size_t camera) noexcept;

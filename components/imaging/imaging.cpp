@@ -23,6 +23,7 @@ void Imaging::visit_ports(PortVisitor& visitor) const {
   visitor.input("frames", frames);
   visitor.input("dots", dots);
   visitor.input("attitude", attitude);
+  if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("chunk", chunk);
 }
 
@@ -41,6 +42,12 @@ void Imaging::degrade(int level) noexcept {
 void Imaging::skipped(const Tick& /*tick*/) noexcept {
   chunk->valid = false;
   chunk->rows = 0;
+}
+
+CommandOutcome Imaging::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
+  next_row_ = height();
+  frame_sets_ = parameters_.period;
+  return CommandOutcome::done();
 }
 
 void Imaging::collect_images() noexcept {
@@ -67,6 +74,7 @@ void Imaging::start_picture() noexcept {
 }
 
 void Imaging::step(const Tick& /*tick*/) noexcept {
+  if (tuning.has_news()) take_parameters(*tuning, parameters_);
   ImageChunk& out = *chunk;
   out.frame = frames->number;
   out.time_ns = frames->trigger_time_ns;

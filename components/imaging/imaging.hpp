@@ -11,8 +11,17 @@
 #include "components/imaging/view.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/command.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
+
+inline constexpr CommandDescriptor kStartPicture{.id = 20,
+                                                 .name = "start_picture",
+                                                 .text = "leaves the picture under way and begins a new one",
+                                                 .modes = modes(Mode::kAcquire, Mode::kTrack)};
+
+inline constexpr std::array kImagingCommands{kStartPicture};
 
 struct ImagingParameters {
   ImageKind kind = ImageKind::kPanoramaJ2000;
@@ -25,7 +34,21 @@ struct ImagingParameters {
   Footprint footprint = Footprint::kPeak;
 };
 
-class Imaging final : public Component {
+inline constexpr ParameterDescriptor kImagingPeriod{
+    .id = 50,
+    .name = "imaging.period",
+    .text = "least number of frame sets from the start of a picture to the next",
+    .value = {
+        .name = "value", .unit = "frame sets", .type = ValueType::kInteger, .least = 1, .most = 100000}};
+
+inline constexpr std::array kImagingParameters{kImagingPeriod};
+
+template <class Visit>
+void visit_parameters(ImagingParameters& p, Visit&& visit) {
+  visit(kImagingPeriod, p.period);
+}
+
+class Imaging final : public Component, public CommandReceiver {
  public:
   /// Allocates the look-up table. @throws std::invalid_argument as Mosaic, Panorama and View, and where one
   /// row is longer than a chunk (limits::kImageChunkBytes)
@@ -34,6 +57,7 @@ class Imaging final : public Component {
   In<Frames> frames;
   In<DotLists> dots;  ///< for the cameras' background levels
   In<AttitudeEstimate> attitude;
+  ParameterInput tuning;
   Out<ImageChunk> chunk;
 
   std::string_view name() const override { return "imaging"; }
@@ -42,6 +66,7 @@ class Imaging final : public Component {
   /// Half as many rows a step with each level: the same picture takes twice as long.
   void degrade(int level) noexcept override;
   void skipped(const Tick& tick) noexcept override;
+  CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
  private:
   int width() const noexcept;

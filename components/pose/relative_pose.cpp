@@ -9,20 +9,29 @@ void RelativePose::visit_ports(PortVisitor& visitor) const {
 
 void RelativePose::step(const Tick& /*tick*/) noexcept {
   estimates->bodies.resize(pairings->bodies.size());
-  for (std::size_t b = 0; b < pairings->bodies.size(); ++b) {
-    PoseEstimate& out = estimates->bodies[b];
-    out.frame = pairings->frame;
-    out.time_ns = pairings->time_ns;
-    out.body = pairings->bodies[b].body;
-    solve_body(pairings->bodies[b], out);
-  }
+  for (std::size_t b = 0; b < pairings->bodies.size(); ++b)
+    solve_body(pairings->bodies[b], estimates->bodies[b]);
 }
 
-void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexcept {
+void RelativePose::skipped(const Tick& /*tick*/) noexcept {
+  estimates->bodies.resize(pairings->bodies.size());
+  for (std::size_t b = 0; b < pairings->bodies.size(); ++b)
+    withdraw(pairings->bodies[b], estimates->bodies[b]);
+}
+
+// Until it is solved this frame set has no pose of the body.
+void RelativePose::withdraw(const BodyPairings& body, PoseEstimate& out) noexcept {
+  out.frame = pairings->frame;
+  out.time_ns = pairings->time_ns;
+  out.body = body.body;
   out.valid = false;
   out.solution = {};
   out.used.clear();
   out.used.resize(body.pairs.size());
+}
+
+void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexcept {
+  withdraw(body, out);
   if (body.state == TrackState::kLost) return;
 
   sights_.clear();

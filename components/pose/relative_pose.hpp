@@ -26,8 +26,10 @@ class RelativePose final : public Component {
   std::string_view name() const override { return "pose"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
 
  private:
+  void withdraw(const BodyPairings& body, PoseEstimate& out) noexcept;
   void solve_body(const BodyPairings& body, PoseEstimate& out) noexcept;
 
   RelativePoseParameters parameters_;

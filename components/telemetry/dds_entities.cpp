@@ -8,13 +8,18 @@ namespace {
 
 // Longest time a reliable write may wait for slow readers.
 constexpr dds_duration_t kMostWait = DDS_MSECS(100);
+// Commands that may wait to be taken; then their writer waits.
+constexpr std::int32_t kMostOrders = 64;
 
 Qos common_qos(const Topic& topic, std::int32_t depth) {
   Qos qos(dds_create_qos());
   const bool event = topic.delivery == Delivery::kEvent;
-  dds_qset_reliability(qos.get(), event ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, kMostWait);
+  const bool order = topic.delivery == Delivery::kOrder;
+  dds_qset_reliability(qos.get(), event || order ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       kMostWait);
   dds_qset_durability(qos.get(), event ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_history(qos.get(), order ? DDS_HISTORY_KEEP_ALL : DDS_HISTORY_KEEP_LAST, order ? 0 : depth);
+  if (order) dds_qset_resource_limits(qos.get(), kMostOrders, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   return qos;
 }
 

@@ -10,7 +10,9 @@ namespace {
 static_assert(limits::kCameras <= omma_MAX_CAMERAS && limits::kDotsPerCamera <= omma_MAX_DOTS &&
               limits::kNameLength <= omma_MAX_NAME && limits::kComponents <= omma_MAX_COMPONENTS &&
               limits::kRateGroups <= omma_MAX_GROUPS && limits::kEventValues <= omma_MAX_EVENT_VALUES &&
-              limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES && kFrameStages <= omma_MAX_STAGES);
+              limits::kImageChunkBytes <= omma_MAX_IMAGE_BYTES &&
+              limits::kParameterIds <= omma_MAX_PARAMETERS &&
+              limits::kCommandArguments <= omma_MAX_ARGUMENTS && kFrameStages <= omma_MAX_STAGES);
 
 template <class Sequence, class Storage>
 void lead_to(Sequence& sequence, Storage* storage, std::size_t room) {
@@ -33,6 +35,7 @@ FrameReport::FrameReport(const TelemetryNames& names)
   lead_to(health.groups, groups_.data(), groups_.size());
   lead_to(timing.steps, steps_.data(), steps_.size());
   lead_to(frame_timing.stages, stages_.data(), stages_.size());
+  lead_to(parameters.values, parameters_.data(), parameters_.size());
   for (EventSample& event : events)
     lead_to(event.sample.values, event.record.values.data(), event.record.values.size());
 }

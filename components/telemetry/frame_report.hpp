@@ -10,6 +10,7 @@
 #include "config/limits.hpp"
 #include "fsw/kernel/fixed_string.hpp"
 #include "fsw/kernel/static_vector.hpp"
+#include "fsw/services/command.hpp"
 #include "fsw/services/event.hpp"
 
 namespace omma::telemetry {
@@ -26,24 +27,32 @@ struct EventSample {
   EventRecord record;
 };
 
+/// The same for what is said about a command.
+struct AckSample {
+  omma_CommandAck sample{};
+  CommandAck ack;
+};
+
 class FrameReport {
  public:
   static constexpr std::size_t kEvents = 16;  ///< more wait for the next frame set
+  static constexpr std::size_t kAcks = 16;    ///< likewise
 
   /// Allocates the dots of so many cameras; nothing afterwards.
   explicit FrameReport(const TelemetryNames& names);
   FrameReport(const FrameReport&) = delete;
   FrameReport& operator=(const FrameReport&) = delete;
 
-  /// One sample to send. `event` is set where the sample still wants its texts.
+  /// One sample to send. `event` or `ack` is set where the sample still wants its texts.
   struct Entry {
     TopicId topic = TopicId::kFrameSet;
     const void* sample = nullptr;
     EventSample* event = nullptr;
+    AckSample* ack = nullptr;
   };
   static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 1 + kEvents +
-                                          3;  // as the members below, but frame_timing
-  StaticVector<Entry, kEntries> entries;      ///< in the order they are sent
+                                          kAcks + 5;  // as the members below, but frame_timing
+  StaticVector<Entry, kEntries> entries;              ///< in the order they are sent
 
   omma_FrameSet frame_set{};
   std::array<omma_CameraDots, limits::kCameras> dots{};
@@ -51,6 +60,9 @@ class FrameReport {
   std::array<omma_RelativePose, limits::kTargetBodies> poses{};
   omma_ImageChunk image_chunk{};
   std::array<EventSample, kEvents> events{};
+  std::array<AckSample, kAcks> acks{};
+  omma_Status status{};
+  omma_Parameters parameters{};
   omma_Health health{};
   omma_Timing timing{};
   omma_UtcCorrelation utc{};
@@ -68,6 +80,7 @@ class FrameReport {
   std::array<omma_GroupHealth, limits::kRateGroups> groups_{};
   std::array<omma_StepTiming, limits::kComponents> steps_{};
   std::array<omma_StageTiming, kFrameStages> stages_{};
+  std::array<omma_ParameterValue, limits::kParameterIds> parameters_{};
 };
 
 }  // namespace omma::telemetry

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "fsw/kernel/input_error.hpp"
+#include "fsw/services/crc32.hpp"
 
 namespace omma::mcap {
 namespace {

@@ -34,6 +34,26 @@ static_assert(omma_HEALTH_FAILED == static_cast<int>(HealthState::kFailed));
 static_assert(omma_IMAGE_PANORAMA_J2000 == static_cast<int>(ImageKind::kPanoramaJ2000));
 static_assert(omma_IMAGE_PANORAMA_RIG == static_cast<int>(ImageKind::kPanoramaRig));
 static_assert(omma_IMAGE_VIEW == static_cast<int>(ImageKind::kView));
+static_assert(omma_MODE_STANDBY == static_cast<int>(Mode::kStandby));
+static_assert(omma_MODE_ACQUIRE == static_cast<int>(Mode::kAcquire));
+static_assert(omma_MODE_TRACK == static_cast<int>(Mode::kTrack));
+static_assert(omma_MODE_SAFE == static_cast<int>(Mode::kSafe));
+static_assert(omma_COMMAND_ACCEPTED == static_cast<int>(CommandStage::kAccepted));
+static_assert(omma_COMMAND_REJECTED == static_cast<int>(CommandStage::kRejected));
+static_assert(omma_COMMAND_COMPLETED == static_cast<int>(CommandStage::kCompleted));
+static_assert(omma_COMMAND_FAILED == static_cast<int>(CommandStage::kFailed));
+static_assert(omma_REASON_NONE == static_cast<int>(CommandReason::kNone));
+static_assert(omma_REASON_SESSION == static_cast<int>(CommandReason::kSession));
+static_assert(omma_REASON_SEQUENCE_REPEATED == static_cast<int>(CommandReason::kSequenceRepeated));
+static_assert(omma_REASON_SEQUENCE_AHEAD == static_cast<int>(CommandReason::kSequenceAhead));
+static_assert(omma_REASON_OPCODE == static_cast<int>(CommandReason::kOpcode));
+static_assert(omma_REASON_ARGUMENT_COUNT == static_cast<int>(CommandReason::kArgumentCount));
+static_assert(omma_REASON_ARGUMENT_TYPE == static_cast<int>(CommandReason::kArgumentType));
+static_assert(omma_REASON_ARGUMENT_RANGE == static_cast<int>(CommandReason::kArgumentRange));
+static_assert(omma_REASON_MODE == static_cast<int>(CommandReason::kMode));
+static_assert(omma_REASON_BUSY == static_cast<int>(CommandReason::kBusy));
+static_assert(omma_REASON_REFUSED == static_cast<int>(CommandReason::kRefused));
+static_assert(omma_REASON_NOT_SAVED == static_cast<int>(CommandReason::kNotSaved));
 
 omma_Quaternion quaternion(const Eigen::Quaterniond& q) noexcept {
   return {q.x(), q.y(), q.z(), q.w()};
@@ -264,6 +284,38 @@ void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {
   const std::size_t bytes = std::min(chunk.pixels.size(), static_cast<std::size_t>(chunk.rows) * chunk.width);
   out.pixels._length = static_cast<std::uint32_t>(bytes);
   std::copy_n(chunk.pixels.begin(), bytes, out.pixels._buffer);
+}
+
+void fill(const CommandAck& ack, omma_CommandAck& out) noexcept {
+  out.time_ns = ack.time_ns;
+  out.valid = true;
+  out.sender = ack.command.sender;
+  out.session = ack.command.session;
+  out.sequence_number = ack.command.sequence;
+  out.opcode = ack.command.opcode;
+  out.stage = same<omma_CommandStage>(ack.stage);
+  out.reason = same<omma_CommandReason>(ack.reason);
+  out.argument = ack.argument;
+}
+
+void fill(const SpacecraftStatus& status, omma_Status& out) noexcept {
+  out.mode = same<omma_Mode>(status.mode.mode);
+  out.mode_since_ns = status.mode.since_ns;
+  out.limits_warned = status.limits.warned;
+  out.limits_alarmed = status.limits.alarmed;
+  out.parameter_set = status.parameters.set;
+  out.parameters_staged = status.parameters.staged;
+  out.session = status.commands.session;
+  out.last_sequence = status.commands.last_sequence;
+  out.commands_accepted = status.commands.accepted;
+  out.commands_rejected = status.commands.rejected;
+}
+
+void fill(const ParameterSet& set, std::span<const ParameterEntry> entries, omma_Parameters& out) noexcept {
+  out.parameter_set = set.number;
+  const std::size_t count = std::min<std::size_t>(entries.size(), out.values._maximum);
+  out.values._length = static_cast<std::uint32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) out.values._buffer[i] = {entries[i].id, set.values[entries[i].id]};
 }
 
 }  // namespace omma::telemetry

@@ -13,8 +13,11 @@
 #include "components/imaging/image_chunk.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/telemetry/omma.h"
+#include "components/telemetry/spacecraft_status.hpp"
 #include "components/tracker/pairings.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/parameters.hpp"
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma::telemetry {
@@ -51,5 +54,10 @@ void fill(const TimingReport& timing, omma_Timing& out) noexcept;
 void fill(const UtcReport& utc, omma_UtcCorrelation& out) noexcept;
 /// @param out  `pixels` holds room for limits::kImageChunkBytes
 void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept;
+/// The text is left as it is: it is made off the real-time path.
+void fill(const CommandAck& ack, omma_CommandAck& out) noexcept;
+void fill(const SpacecraftStatus& status, omma_Status& out) noexcept;
+/// @param out  `values` holds room for limits::kParameterIds
+void fill(const ParameterSet& set, std::span<const ParameterEntry> entries, omma_Parameters& out) noexcept;
 
 }  // namespace omma::telemetry

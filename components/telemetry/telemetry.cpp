@@ -24,6 +24,12 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("health", health);
   visitor.input("timing", timing);
   visitor.input("utc", utc);
+  if (commands.source() != nullptr) visitor.input("commands", commands);
+  if (acks.source() != nullptr) visitor.input("acks", acks);
+  if (parameters.source() != nullptr) visitor.input("parameters", parameters);
+  if (parameter_state.source() != nullptr) visitor.input("parameter_state", parameter_state);
+  if (mode.source() != nullptr) visitor.input("mode", mode);
+  if (limit_counts.source() != nullptr) visitor.input("limit_counts", limit_counts);
 }
 
 void Telemetry::step(const Tick& /*tick*/) noexcept {
@@ -36,7 +42,10 @@ void Telemetry::step(const Tick& /*tick*/) noexcept {
   add_frame_set(*report);
   add_dots(*report);
   add_products(*report);
-  add_housekeeping(*report);
+  const bool healthy = add_housekeeping(*report);
+  add_acks(*report);
+  add_status(*report, healthy);
+  add_parameters(*report);
   add_stages(*report);
   add_events(*report);
   reports_.send();
@@ -45,6 +54,7 @@ void Telemetry::step(const Tick& /*tick*/) noexcept {
 bool Telemetry::send_rest() noexcept {
   FrameReport* report = reports_.has_room() ? reports_.begin() : nullptr;
   if (report == nullptr) return true;  // once there is room
+  add_acks(*report);
   add_events(*report);
   if (report->entries.empty()) return false;
   reports_.send();
@@ -54,7 +64,7 @@ bool Telemetry::send_rest() noexcept {
 template <class Sample>
 void Telemetry::add(Report& report, Sample& sample, std::uint32_t& number) noexcept {
   sample.sample_number = ++number;
-  report.entries.push_back({TopicOf<Sample>::id, &sample, nullptr});
+  report.entries.push_back({TopicOf<Sample>::id, &sample});
 }
 
 void Telemetry::add_frame_set(Report& report) noexcept {
@@ -91,8 +101,9 @@ void Telemetry::add_products(Report& report) noexcept {
   add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
 }
 
-void Telemetry::add_housekeeping(Report& report) noexcept {
-  if (health->valid && (!has_health_ || health->time_ns != health_time_ns_)) {
+bool Telemetry::add_housekeeping(Report& report) noexcept {
+  const bool reported = health->valid && (!has_health_ || health->time_ns != health_time_ns_);
+  if (reported) {
     has_health_ = true;
     health_time_ns_ = health->time_ns;
     telemetry::fill(*health, report.health);
@@ -115,6 +126,7 @@ void Telemetry::add_housekeeping(Report& report) noexcept {
     report.utc.frame = frame_;
     add(report, report.utc, numbers_[static_cast<std::size_t>(TopicId::kUtc)]);
   }
+  return reported;
 }
 
 void Telemetry::add_stages(Report& report) noexcept {
@@ -131,6 +143,54 @@ void Telemetry::add_stages(Report& report) noexcept {
   report.frame_timing.sample_number = ++numbers_[static_cast<std::size_t>(TopicId::kFrameTiming)];
 }
 
+void Telemetry::add_acks(Report& report) noexcept {
+  if (acks.source() == nullptr) return;
+  for (telemetry::AckSample& ack : report.acks) {
+    if (!acks.receive(ack.ack)) return;
+    telemetry::fill(ack.ack, ack.sample);
+    ack.sample.frame = frame_;
+    ack.sample.sample_number = ++numbers_[static_cast<std::size_t>(TopicId::kCommandAck)];
+    report.entries.push_back({.topic = TopicId::kCommandAck, .sample = &ack.sample, .ack = &ack});
+  }
+}
+
+telemetry::SpacecraftStatus Telemetry::status() const noexcept {
+  telemetry::SpacecraftStatus now;
+  now.commands = *commands;
+  if (parameter_state.source() != nullptr) now.parameters = *parameter_state;
+  if (mode.source() != nullptr) now.mode = *mode;
+  if (limit_counts.source() != nullptr) now.limits = *limit_counts;
+  return now;
+}
+
+// With each health report, and whenever it has changed.
+void Telemetry::add_status(Report& report, bool due) noexcept {
+  if (commands.source() == nullptr) return;
+  const telemetry::SpacecraftStatus now = status();
+  const bool changed = !has_status_ || now != sent_status_;
+  if (!changed && !due) return;
+  has_status_ = true;
+  sent_status_ = now;
+  telemetry::fill(now, report.status);
+  report.status.frame = frame_;
+  report.status.time_ns = dots->time_ns;
+  report.status.valid = true;
+  add(report, report.status, numbers_[static_cast<std::size_t>(TopicId::kStatus)]);
+}
+
+// At first, and with each commit.
+void Telemetry::add_parameters(Report& report) noexcept {
+  if (parameters.source() == nullptr) return;
+  if (has_parameters_ && parameters->number == sent_parameters_) return;
+  has_parameters_ = true;
+  sent_parameters_ = parameters->number;
+  telemetry::fill(*parameters, parameter_entries_, report.parameters);
+  report.parameters.frame = frame_;
+  report.parameters.time_ns = dots->time_ns;
+  report.parameters.valid = true;
+  add(report, report.parameters, numbers_[static_cast<std::size_t>(TopicId::kParameters)]);
+}
+
 void Telemetry::add_events(Report& report) noexcept {
   for (telemetry::EventSample& event : report.events) {
     if (!events_.take(event.record)) return;
@@ -144,7 +204,7 @@ void Telemetry::add_events(Report& report) noexcept {
     event.sample.runs_ago = 0;
     event.sample.held_back = record.held_back;
     event.sample.values._length = record.value_count;
-    report.entries.push_back({TopicId::kEvent, &event.sample, &event});
+    report.entries.push_back({.topic = TopicId::kEvent, .sample = &event.sample, .event = &event});
   }
 }
 

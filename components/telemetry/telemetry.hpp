@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
@@ -26,11 +27,16 @@
 #include "components/imaging/image_chunk.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/telemetry/report_queue.hpp"
+#include "components/telemetry/spacecraft_status.hpp"
 #include "components/tracker/pairings.hpp"
 #include "fsw/kernel/component.hpp"
+#include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/events.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/limit_watch.hpp"
+#include "fsw/services/parameters.hpp"
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
@@ -39,6 +45,8 @@ class Telemetry final : public Component {
  public:
   /// Allocates the reports. It is the one reader of `events`.
   Telemetry(const telemetry::TelemetryNames& names, Events& events);
+  /// Before time starts: the parameters there are, whose values are sent.
+  void tell_parameters(std::span<const ParameterEntry> entries) { parameter_entries_ = entries; }
 
   In<Frames> frames;
   In<DotLists> dots;
@@ -49,6 +57,12 @@ class Telemetry final : public Component {
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;
   In<UtcReport> utc;
+  In<CommanderState> commands;  // this and what follows is left unbound where no commands are taken
+  InQueue<CommandAck> acks;
+  In<ParameterSet> parameters;
+  In<ParameterState> parameter_state;
+  In<ModeState> mode;
+  In<LimitCounts> limit_counts;
 
   std::string_view name() const override { return "telemetry"; }
   void visit_ports(PortVisitor& visitor) const override;
@@ -69,9 +83,13 @@ class Telemetry final : public Component {
   void add_frame_set(Report& report) noexcept;
   void add_dots(Report& report) noexcept;
   void add_products(Report& report) noexcept;
-  void add_housekeeping(Report& report) noexcept;
+  bool add_housekeeping(Report& report) noexcept;  ///< true when there was a health report
   void add_stages(Report& report) noexcept;
   void add_events(Report& report) noexcept;
+  void add_acks(Report& report) noexcept;
+  telemetry::SpacecraftStatus status() const noexcept;
+  void add_status(Report& report, bool due) noexcept;
+  void add_parameters(Report& report) noexcept;
   void count_dropped() noexcept;
   template <class Sample>
   void add(Report& report, Sample& sample, std::uint32_t& number) noexcept;
@@ -79,6 +97,7 @@ class Telemetry final : public Component {
   telemetry::TelemetryNames names_;
   Events& events_;
   telemetry::ReportQueue reports_;
+  std::span<const ParameterEntry> parameter_entries_;
 
   // The newest sample number of each topic, and of each key where it has one.
   std::array<std::uint32_t, telemetry::kTopicCount> numbers_{};
@@ -92,6 +111,10 @@ class Telemetry final : public Component {
   TimeNs utc_time_ns_ = 0;
   bool has_utc_ = false;
   const telemetry::FrameStages* stages_ = nullptr;
+  bool has_status_ = false;
+  telemetry::SpacecraftStatus sent_status_;
+  std::uint32_t sent_parameters_ = 0;
+  bool has_parameters_ = false;
 };
 
 }  // namespace omma

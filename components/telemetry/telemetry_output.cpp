@@ -19,8 +19,9 @@ constexpr int kNiceness = 10;
 
 }  // namespace
 
-TelemetryOutput::TelemetryOutput(Telemetry& telemetry, std::vector<EventDescriptor> events)
-    : telemetry_(telemetry), reports_(telemetry.reports()), events_(std::move(events)) {}
+TelemetryOutput::TelemetryOutput(Telemetry& telemetry, std::vector<EventDescriptor> events,
+                                 CommandVocabulary words)
+    : telemetry_(telemetry), reports_(telemetry.reports()), events_(std::move(events)), words_(words) {}
 
 TelemetryOutput::~TelemetryOutput() {
   if (thread_.joinable()) stop();
@@ -95,6 +96,7 @@ bool TelemetryOutput::write_one() {
 
 void TelemetryOutput::write(const telemetry::FrameReport::Entry& entry) {
   if (entry.event != nullptr) set_texts(*entry.event);
+  if (entry.ack != nullptr) telemetry::set_text(entry.ack->sample.text, ack_text(entry.ack->ack, words_));
   const std::span<const std::byte> cdr = cdr_.write(entry.topic, entry.sample);
   for (const auto& sink : sinks_) sink->write(entry.topic, entry.sample, cdr);
 }

@@ -14,13 +14,15 @@
 #include "components/telemetry/frame_latency.hpp"
 #include "components/telemetry/sink.hpp"
 #include "components/telemetry/telemetry.hpp"
+#include "fsw/services/command_text.hpp"
 
 namespace omma {
 
 class TelemetryOutput {
  public:
   /// @param events  every event the program can raise: what their names and sentences are made of
-  TelemetryOutput(Telemetry& telemetry, std::vector<EventDescriptor> events);
+  /// @param words   of the commands it takes, likewise; they outlive this
+  TelemetryOutput(Telemetry& telemetry, std::vector<EventDescriptor> events, CommandVocabulary words = {});
   ~TelemetryOutput();
   TelemetryOutput(const TelemetryOutput&) = delete;
   TelemetryOutput& operator=(const TelemetryOutput&) = delete;
@@ -52,6 +54,7 @@ class TelemetryOutput {
   Telemetry& telemetry_;
   telemetry::ReportQueue& reports_;
   const std::vector<EventDescriptor> events_;
+  const CommandVocabulary words_;
   std::vector<std::unique_ptr<telemetry::Sink>> sinks_;
   telemetry::CdrWriter cdr_;
   std::unique_ptr<telemetry::FrameLatency> latency_;

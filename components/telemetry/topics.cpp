@@ -1,9 +1,15 @@
 #include "components/telemetry/topics.hpp"
 
+#include <array>
+
 namespace omma::telemetry {
 
-const std::array<Topic, kTopicCount>& topics() noexcept {
-  static const std::array<Topic, kTopicCount> table{{
+namespace {
+
+constexpr std::size_t kAllTopics = kTopicCount + 2;
+
+const std::array<Topic, kAllTopics>& all_topics() noexcept {
+  static const std::array<Topic, kAllTopics> table{{
       {TopicId::kFrameSet, "frame_set", "omma::FrameSet", &omma_FrameSet_desc, Delivery::kStream, 1, 2000,
        false},
       {TopicId::kDots, "dots", "omma::CameraDots", &omma_CameraDots_desc, Delivery::kStream, 1, 2000, false},
@@ -20,12 +26,26 @@ const std::array<Topic, kTopicCount>& topics() noexcept {
       {TopicId::kEvent, "event", "omma::Event", &omma_Event_desc, Delivery::kEvent, 64, 0, false},
       {TopicId::kImageChunk, "image_chunk", "omma::ImageChunk", &omma_ImageChunk_desc, Delivery::kStream, 1,
        0, false},
+      {TopicId::kCommandAck, "command_ack", "omma::CommandAck", &omma_CommandAck_desc, Delivery::kEvent, 64,
+       0, false},
+      {TopicId::kStatus, "status", "omma::Status", &omma_Status_desc, Delivery::kEvent, 1, 0, false},
+      {TopicId::kParameters, "parameters", "omma::Parameters", &omma_Parameters_desc, Delivery::kEvent, 1, 0,
+       false},
+      {TopicId::kCommand, "command", "omma::Command", &omma_Command_desc, Delivery::kOrder, 1, 0, false},
+      {TopicId::kDictionary, "dictionary", "omma::Dictionary", &omma_Dictionary_desc, Delivery::kEvent, 1, 0,
+       false},
   }};
   return table;
 }
 
+}  // namespace
+
+std::span<const Topic, kTopicCount> topics() noexcept {
+  return std::span(all_topics()).first<kTopicCount>();
+}
+
 const Topic& topic(TopicId id) noexcept {
-  return topics()[static_cast<std::size_t>(id)];
+  return all_topics()[static_cast<std::size_t>(id)];
 }
 
 std::optional<TopicId> find_topic(std::string_view name) noexcept {

@@ -1,11 +1,12 @@
-// The table of telemetry topics: what the flight program publishes and logs, and the ground reads. One line a
-// topic; the types are in omma.idl, the interface control document is docs/interfaces.md.
+// The table of topics: the telemetry that the flight program publishes and logs and the ground reads, and the
+// link on which commands come. One line a topic; the types are in omma.idl, the interface control document is
+// docs/interfaces.md.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,13 +25,20 @@ enum class TopicId : std::uint8_t {
   kUtc,
   kEvent,
   kImageChunk,
+  kCommandAck,
+  kStatus,
+  kParameters,
+  // Not telemetry: on the link only, and in no log.
+  kCommand,
+  kDictionary,
 };
-inline constexpr std::size_t kTopicCount = 10;
+inline constexpr std::size_t kTopicCount = 13;  ///< of telemetry
 
 /// How a topic travels over DDS.
 enum class Delivery : std::uint8_t {
   kStream,  ///< best effort, KEEP_LAST, with a deadline: the newest matters
   kEvent,   ///< reliable, KEEP_LAST with depth, transient local: each one matters, also to who comes late
+  kOrder,   ///< reliable, KEEP_ALL, volatile: each one matters, to who is there, and never to who comes late
 };
 
 struct Topic {
@@ -44,9 +52,11 @@ struct Topic {
   bool measured;             ///< holds measured durations: not the same from run to run
 };
 
-const std::array<Topic, kTopicCount>& topics() noexcept;
+/// Telemetry.
+std::span<const Topic, kTopicCount> topics() noexcept;
+/// Any topic, those of the link as well.
 const Topic& topic(TopicId id) noexcept;
-/// By the last part of its name, or by the whole name; empty when there is none.
+/// Telemetry by the last part of its name, or by the whole name; empty when there is none.
 std::optional<TopicId> find_topic(std::string_view name) noexcept;
 /// omma/<spacecraft>/<topic>
 std::string topic_name(std::string_view spacecraft, TopicId id);
@@ -95,6 +105,18 @@ struct TopicOf<omma_Event> {
 template <>
 struct TopicOf<omma_ImageChunk> {
   static constexpr TopicId id = TopicId::kImageChunk;
+};
+template <>
+struct TopicOf<omma_CommandAck> {
+  static constexpr TopicId id = TopicId::kCommandAck;
+};
+template <>
+struct TopicOf<omma_Status> {
+  static constexpr TopicId id = TopicId::kStatus;
+};
+template <>
+struct TopicOf<omma_Parameters> {
+  static constexpr TopicId id = TopicId::kParameters;
 };
 
 }  // namespace omma::telemetry

@@ -17,6 +17,7 @@ class AttitudePrediction {
   /// @param acceleration_sigma  angular acceleration not modelled [rad/s²]
   explicit AttitudePrediction(double acceleration_sigma) : acceleration_sigma_(acceleration_sigma) {}
 
+  void set_acceleration(double sigma) noexcept { acceleration_sigma_ = sigma; }
   void reset() noexcept { count_ = 0; }
   /// A new estimate; one no newer than the last is ignored.
   void update(TimeNs time_ns, const Eigen::Quaterniond& rig_from_j2000,
@@ -45,6 +46,10 @@ class PosePrediction {
   PosePrediction(double angular_sigma, double linear_sigma)
       : angular_sigma_(angular_sigma), linear_sigma_(linear_sigma) {}
 
+  void set_accelerations(double angular_sigma, double linear_sigma) noexcept {
+    angular_sigma_ = angular_sigma;
+    linear_sigma_ = linear_sigma;
+  }
   void reset() noexcept { count_ = 0; }
   void update(TimeNs time_ns, const Pose& rig_from_body, const Matrix6d& covariance) noexcept;
   bool ready() const noexcept { return count_ == 2; }

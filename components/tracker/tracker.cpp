@@ -27,11 +27,14 @@ void Tracker::visit_ports(PortVisitor& visitor) const {
   visitor.input("dots", dots);
   visitor.input("attitude", attitude);
   visitor.input("poses", poses);
+  if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("pairings", pairings);
 }
 
 void Tracker::step(const Tick& /*tick*/) noexcept {
+  if (tuning.has_news()) take_news();
   learn();
+  if (forget_) forget();
   Pairings& out = *pairings;
   frame_interval_ns_ = out.time_ns > 0 ? dots->time_ns - out.time_ns : 0;
   out.frame = dots->frame;
@@ -51,6 +54,14 @@ void Tracker::step(const Tick& /*tick*/) noexcept {
   count_unclaimed();
 }
 
+void Tracker::take_news() noexcept {
+  take_parameters(*tuning, parameters_);
+  sky_prediction_.set_acceleration(parameters_.sky_angular_acceleration);
+  for (TrackedBody& tracked : bodies_)
+    tracked.prediction.set_accelerations(parameters_.body_angular_acceleration,
+                                         parameters_.body_linear_acceleration);
+}
+
 void Tracker::learn() noexcept {
   if (attitude->valid) {
     sky_prediction_.update(attitude->time_ns, attitude->solution.rig_from_j2000,
@@ -62,6 +73,31 @@ void Tracker::learn() noexcept {
                                            pose.solution.covariance);
     }
   }
+}
+
+void Tracker::forget() noexcept {
+  sky_prediction_.reset();
+  for (TrackedBody& tracked : bodies_) tracked.prediction.reset();
+  forget_ = false;
+}
+
+void Tracker::skipped(const Tick& /*tick*/) noexcept {
+  Pairings& out = *pairings;
+  out.frame = dots->frame;
+  out.time_ns = dots->time_ns;
+  out.sky.state = TrackState::kLost;
+  out.sky.pairs.clear();
+  for (std::size_t b = 0; b < out.bodies.size(); ++b) {
+    out.bodies[b].state = TrackState::kLost;
+    out.bodies[b].body = static_cast<std::uint8_t>(b);
+    out.bodies[b].pairs.clear();
+  }
+  out.unclaimed_dots = 0;
+}
+
+CommandOutcome Tracker::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
+  forget_ = true;  // in its own step, after the last estimates were learnt from
+  return CommandOutcome::done();
 }
 
 // A prediction is trusted for a few frame sets after the last estimate it was made of.

@@ -19,13 +19,23 @@
 #include "components/tracker/sky_pairing.hpp"
 #include "components/tracker/star_identification.hpp"
 #include "components/tracker/target_identification.hpp"
-#include "components/tracker/tracker_parameters.hpp"
+#include "components/tracker/tracker_tuning.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
+#include "fsw/services/command.hpp"
+#include "fsw/services/parameter_input.hpp"
 
 namespace omma {
 
-class Tracker final : public Component {
+inline constexpr CommandDescriptor kSearchAgain{
+    .id = 21,
+    .name = "search_again",
+    .text = "forgets where the sky and the bodies were, and identifies them anew",
+    .modes = modes(Mode::kAcquire, Mode::kTrack, Mode::kSafe)};
+
+inline constexpr std::array kTrackerCommands{kSearchAgain};
+
+class Tracker final : public Component, public CommandReceiver {
  public:
   /// @param catalogue  apparent places at the mission's epoch; outlives this, as do `rig` and `bodies`
   Tracker(const TrackerParameters& parameters, const Rig& rig, const StarCatalogue& catalogue,
@@ -34,11 +44,14 @@ class Tracker final : public Component {
   In<DotLists> dots;
   Previous<AttitudeEstimate> attitude;  // of the frame set before: what the prediction is made of
   Previous<PoseEstimates> poses;
+  ParameterInput tuning;
   Out<Pairings> pairings;
 
   std::string_view name() const override { return "tracker"; }
   void visit_ports(PortVisitor& visitor) const override;
   void step(const Tick& tick) noexcept override;
+  void skipped(const Tick& tick) noexcept override;
+  CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
  private:
   struct TrackedBody {
@@ -48,7 +61,9 @@ class Tracker final : public Component {
     std::array<std::uint32_t, limits::kTargetsPerBody> persistence{};
   };
 
+  void take_news() noexcept;
   void learn() noexcept;
+  void forget() noexcept;
   bool predictable(bool ready, TimeNs last_time_ns) const noexcept;
   void track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept;
   void track_sky(std::span<const HiddenCone> cones) noexcept;
@@ -72,6 +87,7 @@ class Tracker final : public Component {
   std::array<std::uint32_t, StarCatalogue::kCapacity> star_persistence_{};  // by HR number
   std::array<std::uint32_t, StarCatalogue::kCapacity> star_persistence_now_{};
   TimeNs frame_interval_ns_ = 0;
+  bool forget_ = false;  // before the next frame set
 };
 
 }  // namespace omma

@@ -16,6 +16,7 @@ constexpr std::chrono::milliseconds kPeriod{20};
 FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, Events& events,
                              const FlightRecordFiles& files)
     : trace_at_end_(!files.trace.empty()),
+      lockstep_(lockstep),
       recorder_(table, lockstep),
       trace_(trace_at_end_ ? files.trace : kDefaultTrace,
              trace_at_end_ ? SlipDumps::kWritten : SlipDumps::kNone, recorder_, events, kEvents),
@@ -23,6 +24,13 @@ FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, Events&
   if (trace_at_end_)  // whether it can be written shows now, not at the end
     if (const std::string failure = trace_.write(); !failure.empty()) throw std::runtime_error(failure);
   chores_.add([this] { trace_.serve(MonotonicClock().now()); });
+}
+
+// When the file is written, and told, is the machine's affair: a replay would not be the same twice.
+CommandOutcome FlightRecords::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
+  if (lockstep_) return CommandOutcome::refused(CommandReason::kRefused);
+  trace_.request();
+  return CommandOutcome::done();
 }
 
 std::vector<std::string> FlightRecords::stop() {

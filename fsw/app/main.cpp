@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
+#include <random>
 #include <string>
 
 #include "components/telemetry/dds_sink.hpp"
@@ -15,8 +17,8 @@
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/run_summary.hpp"
 #include "fsw/app/topology.hpp"
+#include "fsw/app/uplink.hpp"
 #include "fsw/kernel/clock.hpp"
-#include "fsw/kernel/graph.hpp"
 #include "fsw/kernel/schedulability.hpp"
 #include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
@@ -29,6 +31,8 @@ struct Arguments {
   std::string frames;
   std::string log;
   std::string trace;
+  std::string commands;
+  std::string parameters;
   std::uint64_t frame_sets = 0;
   int workers = 1;
   bool real_time = false;
@@ -72,7 +76,7 @@ int describe(const Arguments& arguments) {
   omma::Topology topology(omma::read_mission(arguments.mission),
                           {.workers = arguments.workers, .with_cameras = false});
   const omma::RateGroupTable table = topology.table();
-  const std::string text = arguments.graph      ? omma::wiring_graph(table)
+  const std::string text = arguments.graph      ? omma::program_graph(table)
                            : arguments.schedule ? omma::schedule_text(table, omma::processors_here())
                                                 : omma::program_dictionary(topology, table);
   return std::puts(text.c_str()) < 0 ? 2 : 0;
@@ -82,28 +86,42 @@ int fly(const Arguments& arguments) {
   omma::Mission mission = omma::read_mission(arguments.mission);
   if (!arguments.frames.empty()) mission.recording = arguments.frames;
   const bool real_time = arguments.real_time || omma::has_live_cameras(mission);
-  omma::Topology topology(mission,
-                          {.lockstep = !real_time, .workers = arguments.workers, .rounds = arguments.rounds});
+  omma::Topology topology(mission, {.lockstep = !real_time,
+                                    .workers = arguments.workers,
+                                    .rounds = arguments.rounds,
+                                    .session = real_time ? std::random_device{}() : 0U});
   const omma::RateGroupTable table = topology.table();
+  omma::Uplink uplink(topology, {.script = arguments.commands,
+                                 .parameters = arguments.parameters,
+                                 .live = real_time && !arguments.no_dds});
+  say(uplink.sentences());
 
   omma::LockstepClock lockstep;
   omma::MonotonicClock monotonic;
   omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
-  omma::ScheduleEvents schedule_events(topology.events);
+  omma::ScheduleEvents schedule_events(topology.events, &topology.mode_keeper);
   omma::FlightRecords records(table, clock.lockstep(), topology.events, {.trace = arguments.trace});
+  topology.commander.bind(omma::kFlightRecordCommands, records);
+  if (const auto unbound = topology.commander.unbound(omma::kCommands); !unbound.empty())
+    throw std::logic_error(unbound.front());
   omma::telemetry::FrameStages stages(table, topology.stage_ends(), clock.lockstep());
   omma::ScheduleObservers observers{&schedule_events, &records.recorder(), &stages};
   omma::Scheduler scheduler(table, clock, observers);
   topology.health.observe(scheduler);
   topology.telemetry.time_frames(stages);
-  omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()});
+  omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()},
+                               topology.vocabulary());
   output.judge_latency(topology.latency_budgets(), clock.lockstep() ? nullptr : &topology.events);
   add_sinks(arguments, mission, output);
-  lockstep.before_each_tick([&output] { output.wait_for_room(); });
+  lockstep.before_each_tick([&] {
+    output.wait_for_room();
+    uplink.save();
+  });
   if (real_time) say(omma::lock_process_memory());
   output.start();
   records.add_chore([&topology] { topology.utc.ask_system(); });
   records.start();
+  if (real_time) say(uplink.start(table));
 
   running = &scheduler;
   recording = &records;
@@ -113,6 +131,7 @@ int fly(const Arguments& arguments) {
   scheduler.run(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets());
   running = nullptr;
   recording = nullptr;
+  say(uplink.stop());
   output.stop();
 
   say(topology.refusals());
@@ -139,7 +158,11 @@ int main(int argc, char** argv) {
       "--trace", arguments.trace,
       "file (JSON, for ui.perfetto.dev) for the flight recorder: written at the end and on SIGUSR1; "
       "slips have files beside it");
-  app.add_flag("--no-dds", arguments.no_dds, "publish nothing");
+  app.add_option("--commands", arguments.commands,
+                 "file of commands, one a line: number of a frame set, command, values");
+  app.add_option("--parameters", arguments.parameters,
+                 "folder of saved parameters: they override the mission's, and commits are saved there");
+  app.add_flag("--no-dds", arguments.no_dds, "publish nothing, take no commands from the ground");
   app.add_option("--workers", arguments.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));
   app.add_flag("--real-time", arguments.real_time,
@@ -147,10 +170,12 @@ int main(int argc, char** argv) {
                "same every time");
   app.add_option("--rounds", arguments.rounds, "play the recording so many times, one after the other")
       ->check(CLI::Range(1, 100000));
-  CLI::Option* graph = app.add_flag("--graph", arguments.graph, "print the wiring (Graphviz) and leave");
-  CLI::Option* dictionary = app.add_flag("--dictionary", arguments.dictionary,
-                                         "print topics, events, rate groups and wiring (JSON) and leave")
-                                ->excludes(graph);
+  CLI::Option* graph =
+      app.add_flag("--graph", arguments.graph, "print the wiring and the modes (Graphviz) and leave");
+  CLI::Option* dictionary =
+      app.add_flag("--dictionary", arguments.dictionary,
+                   "print topics, events, commands, parameters, rate groups and wiring (JSON)")
+          ->excludes(graph);
   app.add_flag("--schedule", arguments.schedule,
                "print the rate groups with their budgets and response times, and leave")
       ->excludes(graph)

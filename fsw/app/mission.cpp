@@ -5,29 +5,52 @@
 #include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
+#include "components/extractor/extractor_tuning.hpp"
 #include "components/geometry/rig_file.hpp"
+#include "components/tracker/tracker_tuning.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
 
 namespace omma {
 namespace {
 
+// "bright", "dark" or "both"
+std::string choices_text(std::string_view choices) {
+  std::string text;
+  for (int i = 0; i < choice_count(choices); ++i) {
+    if (i > 0) text += i + 1 == choice_count(choices) ? " or " : ", ";
+    text.append("\"").append(choice_name(choices, i)).append("\"");
+  }
+  return text;
+}
+
+double read_choice(const TomlTable& table, std::string_view key, std::string_view choices, double otherwise) {
+  const std::string word = table.text(key, choice_name(choices, static_cast<int>(otherwise)));
+  for (int i = 0; i < choice_count(choices); ++i)
+    if (choice_name(choices, i) == word) return i;
+  throw table.error(key, choices_text(choices), word);
+}
+
+// The keys of a table are the last parts of the parameters' names; their ranges are the parameters'.
+template <class Fields>
+void read_parameters(const TomlTable& table, Fields& fields) {
+  visit_parameters(fields, [&table](const ParameterDescriptor& parameter, auto& field) {
+    using Field = std::remove_reference_t<decltype(field)>;
+    const std::string_view key = parameter.name.substr(parameter.name.rfind('.') + 1);
+    const ValueDescriptor& value = parameter.value;
+    const Range range{value.least, value.most};
+    if (value.type == ValueType::kChoice)
+      field = static_cast<Field>(read_choice(table, key, value.choices, static_cast<double>(field)));
+    else if (value.type == ValueType::kInteger)
+      field = static_cast<Field>(table.integer(key, range, static_cast<std::int64_t>(field)));
+    else
+      field = static_cast<Field>(table.number(key, range, static_cast<double>(field)));
+  });
+}
+
 ExtractorParameters read_extractor(const TomlTable& table) {
   ExtractorParameters parameters;
-  parameters.threshold = static_cast<float>(table.number("threshold", {1, 100}, parameters.threshold));
-  parameters.gain = static_cast<float>(table.number("gain_e_per_level", {0, 1e6}, parameters.gain));
-  parameters.black_level =
-      static_cast<float>(table.number("black_level", {0, 65535}, parameters.black_level));
-  const std::string polarity = table.text("polarity", "bright");
-  if (polarity == "bright") {
-    parameters.polarity = DotPolarity::kBright;
-  } else if (polarity == "dark") {
-    parameters.polarity = DotPolarity::kDark;
-  } else if (polarity == "both") {
-    parameters.polarity = DotPolarity::kBoth;
-  } else {
-    throw table.error("polarity", "\"bright\", \"dark\" or \"both\"", polarity);
-  }
+  read_parameters(table, parameters);
   table.refuse_unknown_keys();
   return parameters;
 }
@@ -96,20 +119,10 @@ std::vector<TargetBody> read_bodies(const TomlTable& root) {
 }
 
 TrackerParameters read_tracker(const TomlTable& table) {
-  TrackerParameters p;
-  p.gate.chi2 = table.number("gate_chi2", {1, 1000}, p.gate.chi2);
-  p.gate.floor_px = table.number("gate_floor_px", {0, 10}, p.gate.floor_px);
-  p.faintest_star = static_cast<float>(table.number("faintest_star", {0, 8}, p.faintest_star));
-  p.floor_px = table.number("lens_error_px", {0, 10}, p.floor_px);
-  p.sky_angular_acceleration = table.number("sky_angular_acceleration", {0, 100}, p.sky_angular_acceleration);
-  p.body_angular_acceleration =
-      table.number("body_angular_acceleration", {0, 100}, p.body_angular_acceleration);
-  p.body_linear_acceleration = table.number("body_linear_acceleration", {0, 100}, p.body_linear_acceleration);
-  p.least_star_pairs = static_cast<int>(table.integer("least_star_pairs", {3, 100}, p.least_star_pairs));
-  p.least_target_pairs = static_cast<int>(table.integer("least_target_pairs", {3, 64}, p.least_target_pairs));
-  p.patience = static_cast<int>(table.integer("patience", {1, 1000}, p.patience));
+  TrackerParameters parameters;
+  read_parameters(table, parameters);
   table.refuse_unknown_keys();
-  return p;
+  return parameters;
 }
 
 AttitudeParameters read_attitude(const TomlTable& table, double frame_rate_hz) {
@@ -120,11 +133,9 @@ AttitudeParameters read_attitude(const TomlTable& table, double frame_rate_hz) {
   } else if (filter != "none") {
     throw table.error("filter", "\"none\" or \"mekf\"", filter);
   }
-  p.mekf.acceleration_density =
-      table.number("acceleration_density", {1e-9, 100}, p.mekf.acceleration_density);
+  read_parameters(table, p);
   // A turn between two frame sets is known short of a whole one.
   p.mekf.first_rate_sigma = std::min(p.mekf.first_rate_sigma, 0.3 * frame_rate_hz);
-  p.least_pairs = static_cast<int>(table.integer("least_pairs", {3, 100}, p.least_pairs));
   table.refuse_unknown_keys();
   return p;
 }
@@ -182,11 +193,11 @@ Mission read_mission(const std::filesystem::path& file) {
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   if (const auto attitude = root.table_if("attitude"))
     mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
+  mission.imaging.period = 10;
   if (const auto imaging = root.table_if("imaging")) {
-    mission.panorama_width =
-        static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));
-    mission.panorama_period =
-        static_cast<int>(imaging->integer("period", {1, 100000}, mission.panorama_period));
+    int& width = mission.imaging.panorama.width;
+    width = static_cast<int>(imaging->integer("panorama_width", {64, 4096}, width));
+    read_parameters(*imaging, mission.imaging);
     imaging->refuse_unknown_keys();
   }
   if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);

@@ -10,6 +10,7 @@
 #include "components/catalogue/target.hpp"
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
+#include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/telemetry/frame_stages.hpp"
 #include "components/tracker/tracker_parameters.hpp"
@@ -39,8 +40,7 @@ struct Mission {
   TrackerParameters tracker;
   AttitudeParameters attitude;
   RelativePoseParameters pose;
-  int panorama_width = 1024;  ///< [px]; the height is half of it
-  int panorama_period = 10;   ///< frame sets from one panorama to the next
+  ImagingParameters imaging;  ///< a panorama every ten frame sets, unless the mission says otherwise
   /// Latest time after the trigger by which each stage is to be done [ms]; 0: as the schedule's budgets have
   /// it.
   telemetry::PerStage<double> latency_ms{};

@@ -3,7 +3,10 @@
 #include <vector>
 
 #include "components/telemetry/topics.hpp"
+#include "fsw/app/operations.hpp"
+#include "fsw/kernel/graph.hpp"
 #include "fsw/services/dictionary.hpp"
+#include "fsw/services/mode_graph.hpp"
 
 namespace omma {
 
@@ -18,8 +21,22 @@ std::string program_dictionary(const Topology& topology, const RateGroupTable& t
                       .deadline_s = 1e-3 * topic.deadline_ms,
                       .measured = topic.measured});
   }
-  return dictionary_json(
-      {.program = "omma-fsw", .events = kEvents, .topics = topics, .idl = telemetry::idl_text()}, table);
+  return dictionary_json({.program = "omma-fsw",
+                          .events = kEvents,
+                          .commands = kCommands,
+                          .parameters = topology.parameters.entries(),
+                          .channels = kHousekeepingChannels,
+                          .limits = kLimits,
+                          .transitions = kTransitions,
+                          .fault_rules = kFaultRules,
+                          .topics = topics,
+                          .idl = telemetry::idl_text()},
+                         table);
+}
+
+std::string program_graph(const RateGroupTable& table) {
+  const std::string modes = mode_graph(kTransitions, kHousekeepingChannels);
+  return wiring_graph(table, modes);
 }
 
 }  // namespace omma

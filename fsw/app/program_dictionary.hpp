@@ -1,5 +1,5 @@
-// What this program sends, from the declarations it flies by: every event, every topic, the schedule and the
-// wiring. A new component with events adds them to kEvents, and nowhere else.
+// What this program sends and understands, from the declarations it flies by: every event, command and topic,
+// the schedule and the wiring. A new component with events or commands adds them here, and nowhere else.
 #pragma once
 
 #include <array>
@@ -7,30 +7,37 @@
 #include <string>
 
 #include "components/camera/camera_events.hpp"
+#include "components/imaging/imaging.hpp"
 #include "components/telemetry/frame_latency.hpp"
+#include "components/tracker/tracker.hpp"
+#include "fsw/app/flight_records.hpp"
 #include "fsw/app/topology.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/event.hpp"
 #include "fsw/services/schedule_events.hpp"
 #include "fsw/services/trace_dump.hpp"
 
 namespace omma {
 
-/// Arrays of descriptors, one after the other.
-template <std::size_t... kCounts>
-constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
-  std::array<EventDescriptor, (kCounts + ...)> all{};
-  std::size_t at = 0;
-  const auto append = [&](const auto& part) {
-    for (const EventDescriptor& event : part) all[at++] = event;
-  };
-  (append(parts), ...);
-  return all;
-}
-
 /// Every event this program can raise.
 inline constexpr auto kEvents =
-    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents);
+    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents,
+           kParameterEvents, kModeEvents, kFaultEvents, kLimitEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
+
+/// Every command it takes.
+inline constexpr auto kCommands = joined(kCommanderCommands, kParameterCommands, kModeCommands,
+                                         kFlightRecordCommands, kImagingCommands, kTrackerCommands);
+static_assert(are_unique(kCommands) && are_well_formed(kCommands), "two commands share an opcode or a name");
+
+/// Every parameter.
+inline constexpr auto kParameters =
+    joined(kExtractorParameters, kTrackerParameters, kAttitudeParameters, kImagingParameters);
+static_assert(are_unique(kParameters) && are_apart(kParameters) && are_well_formed(kParameters),
+              "two parameters share an id or a name");
+
+/// The wiring and the modes, as Graphviz draws them.
+std::string program_graph(const RateGroupTable& table);
 
 /// One JSON object.
 std::string program_dictionary(const Topology& topology, const RateGroupTable& table);

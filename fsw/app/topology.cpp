@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "fsw/app/operations.hpp"
+#include "fsw/app/program_dictionary.hpp"
+
 namespace omma {
 namespace {
 
@@ -32,11 +35,19 @@ std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
   return cameras;
 }
 
-ImagingParameters imaging_parameters(const Mission& mission) {
-  ImagingParameters parameters;
-  parameters.panorama.width = mission.panorama_width;
-  parameters.period = mission.panorama_period;
-  return parameters;
+std::vector<ParameterEntry> parameter_entries(const Mission& mission) {
+  std::vector<std::string> names;
+  std::vector<ExtractorParameters> extractors;
+  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
+    names.emplace_back(mission.rig.cameras[c].name.view());
+    extractors.push_back(mission.cameras[c].extractor);
+  }
+  std::vector<ParameterEntry> entries;
+  add_entries(entries, extractors, names);
+  add_entries(entries, std::vector{mission.tracker});
+  add_entries(entries, std::vector{mission.attitude});
+  add_entries(entries, std::vector{mission.imaging});
+  return entries;
 }
 
 std::optional<UtcNs> epoch(const Mission& mission) {
@@ -58,13 +69,18 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       pool_(options.workers, options.lockstep ? 0 : kVisionPriority),
       catalogue_(star_catalogue(mission_)),
       drivers_(mission_, options),
+      commander(options.session),
+      parameters(parameter_entries(mission_), events),
       sync_trigger(nullptr),
       cameras(drivers_.pointers(), events),
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
       attitude(mission_.attitude),
       pose(mission_.pose),
-      imaging(imaging_parameters(mission_), mission_.rig),
+      imaging(mission_.imaging, mission_.rig),
+      limit_watch(kLimits, events),
+      mode_keeper(kTransitions, events),
+      fault_watch(kFaultRules, events, mode_keeper, commander),
       telemetry(telemetry_names(mission_), events),
       utc(options.lockstep ? UtcCorrelation::Kind::kReplay : UtcCorrelation::Kind::kLive, epoch(mission_)),
       health(events),
@@ -72,9 +88,25 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       timing_to_telemetry_(health.timing),
       utc_to_telemetry_(utc.report) {
   connect();
+  bind_commands();
+}
+
+void Topology::bind_commands() {
+  commander.bind(kParameterCommands, parameters);
+  commander.bind(kModeCommands, mode_keeper);
+  commander.bind(kImagingCommands, imaging);
+  commander.bind(kTrackerCommands, tracker);
+}
+
+CommandVocabulary Topology::vocabulary() const {
+  return {.commands = kCommands, .parameters = parameters.entries()};
 }
 
 void Topology::connect() {
+  extractor.tuning.bind(parameters.committed);
+  tracker.tuning.bind(parameters.committed);
+  attitude.tuning.bind(parameters.committed);
+  imaging.tuning.bind(parameters.committed);
   cameras.trigger.bind(sync_trigger.trigger);
   extractor.frames.bind(cameras.frames);
   tracker.dots.bind(extractor.dots);
@@ -85,6 +117,16 @@ void Topology::connect() {
   imaging.frames.bind(cameras.frames);
   imaging.dots.bind(extractor.dots);
   imaging.attitude.bind(attitude.estimate);
+  housekeeping.frames.bind(cameras.frames);
+  housekeeping.dots.bind(extractor.dots);
+  housekeeping.pairings.bind(tracker.pairings);
+  housekeeping.attitude.bind(attitude.estimate);
+  housekeeping.poses.bind(pose.estimates);
+  housekeeping.health.bind(health_to_telemetry_);
+  limit_watch.channels.bind(housekeeping.channels);
+  fault_watch.channels.bind(housekeeping.channels);
+  mode_keeper.channels.bind(housekeeping.channels);
+  commander.mode.bind(mode_keeper.state);
   telemetry.frames.bind(cameras.frames);
   telemetry.dots.bind(extractor.dots);
   telemetry.pairings.bind(tracker.pairings);
@@ -94,26 +136,44 @@ void Topology::connect() {
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
   telemetry.utc.bind(utc_to_telemetry_);
+  telemetry.commands.bind(commander.state);
+  telemetry.parameters.bind(parameters.committed);
+  telemetry.parameter_state.bind(parameters.state);
+  telemetry.mode.bind(mode_keeper.state);
+  telemetry.limit_counts.bind(limit_watch.counts);
+  telemetry.tell_parameters(parameters.entries());
+  commander.acks.bind(acks_to_telemetry_);
+  telemetry.acks.bind(acks_to_telemetry_);
 }
 
 RateGroupTable Topology::table() {
   using std::chrono::microseconds;
   const auto period = microseconds(std::llround(1e6 / mission_.frame_rate_hz));
+  const BudgetRule draw_less{.reaction = BreachReaction::kDegrade};
+  // Safe mode leaves out poses and pictures: the tracker has the processor to itself.
+  const BudgetRule overloaded{.reaction = BreachReaction::kSafe, .breaches = 50, .in_steps = 60};
   return {.base_period = period,
           .groups = {{.name = "vision",
                       .priority = kVisionPriority,
-                      .components = {{sync_trigger, microseconds(100)},
+                      .components = {{commander, microseconds(100)},
+                                     {parameters, microseconds(100)},
+                                     {sync_trigger, microseconds(100)},
                                      {cameras, microseconds(2000)},
-                                     {extractor, microseconds(10000), {}, pool_.workers()},
-                                     {tracker, microseconds(15000)},
-                                     {attitude, microseconds(2000)},
-                                     {pose, microseconds(2000)},
-                                     {imaging, microseconds(10000), {.reaction = BreachReaction::kDegrade}},
+                                     {extractor, microseconds(10000), {}, pool_.workers(), kAttitudeModes},
+                                     {tracker, microseconds(15000), overloaded, 1, kAttitudeModes},
+                                     {attitude, microseconds(2000), {}, 1, kAttitudeModes},
+                                     {pose, microseconds(2000), {}, 1, kAllProductsModes},
+                                     {imaging, microseconds(10000), draw_less, 1, kAllProductsModes},
+                                     {housekeeping, microseconds(100)},
+                                     {limit_watch, microseconds(100)},
+                                     {fault_watch, microseconds(100)},
+                                     {mode_keeper, microseconds(100)},
                                      {telemetry, microseconds(1000)}}},
                      {.name = "health",
                       .divisor = beats_per_second(mission_.frame_rate_hz),
                       .priority = kHealthPriority,
-                      .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}}};
+                      .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}},
+          .phase = &mode_keeper.phase()};
 }
 
 std::vector<telemetry::StageEnd> Topology::stage_ends() const {

@@ -9,6 +9,7 @@
 #include "components/camera/cameras.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/extractor.hpp"
+#include "components/housekeeping/housekeeping.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
@@ -20,8 +21,14 @@
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/worker_pool.hpp"
+#include "fsw/services/command_text.hpp"
+#include "fsw/services/commander.hpp"
 #include "fsw/services/events.hpp"
+#include "fsw/services/fault_watch.hpp"
 #include "fsw/services/health.hpp"
+#include "fsw/services/limit_watch.hpp"
+#include "fsw/services/mode_keeper.hpp"
+#include "fsw/services/parameters.hpp"
 #include "fsw/services/utc_correlation.hpp"
 
 namespace omma {
@@ -43,6 +50,8 @@ class Topology {
   telemetry::PerStage<> latency_budgets();
   /// Real-time privileges that the threads sharing the extraction were not granted.
   const Refusals& refusals() const { return pool_.refusals(); }
+  /// The words of the commands it takes; valid as long as this.
+  CommandVocabulary vocabulary() const;
   /// CameraDrivers::frame_sets
   std::uint64_t frame_sets() const { return drivers_.frame_sets(); }
 
@@ -56,6 +65,8 @@ class Topology {
   Events events;
 
   // In the order of the data.
+  Commander commander;
+  Parameters parameters;
   SyncTrigger sync_trigger;
   Cameras cameras;
   Extractor extractor;
@@ -63,6 +74,10 @@ class Topology {
   Attitude attitude;
   RelativePose pose;
   Imaging imaging;
+  Housekeeping housekeeping;
+  LimitWatch limit_watch;
+  ModeKeeper mode_keeper;
+  FaultWatch fault_watch;
   Telemetry telemetry;
   UtcCorrelation utc;
   Health health;
@@ -71,8 +86,10 @@ class Topology {
   Latest<HealthReport> health_to_telemetry_;  // from one rate group to the other
   Latest<TimingReport> timing_to_telemetry_;
   Latest<UtcReport> utc_to_telemetry_;
+  Queue<CommandAck, 64> acks_to_telemetry_;
 
   void connect();
+  void bind_commands();
 };
 
 }  // namespace omma

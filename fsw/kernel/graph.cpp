@@ -56,7 +56,7 @@ std::string arrow(const Wiring& wiring, const Connection& connection) {
 
 }  // namespace
 
-std::string wiring_graph(const RateGroupTable& table) {
+std::string wiring_graph(const RateGroupTable& table, std::string_view more) {
   const Wiring wiring = trace_wiring(table);
   std::string dot = "digraph wiring {\n  rankdir=LR;\n  node [shape=box, style=rounded];\n";
   std::size_t index = 0;
@@ -73,7 +73,7 @@ std::string wiring_graph(const RateGroupTable& table) {
     for (const std::string& fault : wiring.faults) dot += escaped(fault) + "\\l";
     dot += "\";\n";
   }
-  return dot + "}\n";
+  return dot.append(more) + "}\n";
 }
 
 }  // namespace omma

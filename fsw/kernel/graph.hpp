@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "fsw/kernel/rate_group.hpp"
 
@@ -9,6 +10,7 @@ namespace omma {
 
 /// One box per rate group with its components in order, one arrow per connection; crossings are dashed and
 /// named by kind, feedback is dotted. Works on faulty wirings too: faults are listed as the drawing's label.
-std::string wiring_graph(const RateGroupTable& table);
+/// @param more  what else belongs into the drawing, in DOT
+std::string wiring_graph(const RateGroupTable& table, std::string_view more = {});
 
 }  // namespace omma

@@ -28,7 +28,8 @@ GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const
       index_(index),
       base_period_(table.base_period.count()),
       clock_(clock),
-      observer_(observer) {
+      observer_(observer),
+      phase_(table.phase) {
   for (std::uint16_t i = 0; i < index; ++i)
     first_component_ = static_cast<std::uint16_t>(first_component_ + table.groups[i].components.size());
   for (const ScheduledComponent& scheduled : group_.components) {
@@ -36,6 +37,7 @@ GroupRunner::GroupRunner(const RateGroupTable& table, std::uint16_t index, const
     steps_.back()->component = &scheduled.component;
     steps_.back()->budget_ns = scheduled.budget.count();
     steps_.back()->shared = scheduled.threads > 1;
+    steps_.back()->phases = scheduled.phases;
     steps_.back()->watch = BudgetWatch(scheduled.on_breach);
   }
   for (const Connection& connection : wiring.connections) {
@@ -85,13 +87,14 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
   timing_.latency.add(latency_ns);
   observer_.beat_started(index_, tick, latency_ns);
   for (Crossing* crossing : acquire_) crossing->acquire();
+  const std::uint32_t phase = phase_ != nullptr ? phase_->load(std::memory_order_acquire) : ~0U;
   ProcessorStay stay;
   CpuMark mark{disturbed_, disturbed_ ? clock_.processor_time() : 0};
   disturbed_ = false;
   TimeNs before = clock_.stopwatch();
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     Step& step = *steps_[i];
-    if (left_out(step, tick)) {
+    if (left_out(step, phase, tick)) {
       before = clock_.stopwatch();  // none of it counts for the next component
       mark.known = false;
       continue;
@@ -110,10 +113,13 @@ void GroupRunner::serve_beat(const Tick& tick, TimeNs latency_ns) noexcept {
   observer_.beat_finished(index_, tick);
 }
 
-bool GroupRunner::left_out(Step& step, const Tick& tick) noexcept {
-  if (step.skip_beats == 0) return false;
-  --step.skip_beats;
-  count_one(step.timing.skipped);
+bool GroupRunner::left_out(Step& step, std::uint32_t phase, const Tick& tick) noexcept {
+  const bool runs = (step.phases & phase) != 0;
+  if (runs && step.skip_beats == 0) return false;
+  if (runs) {
+    --step.skip_beats;
+    count_one(step.timing.skipped);
+  }
   step.component->skipped(tick);
   for (Crossing* crossing : step.publish) crossing->publish();
   return true;

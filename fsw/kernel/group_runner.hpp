@@ -69,6 +69,7 @@ class GroupRunner {
     TimeNs budget_ns = 0;
     BudgetWatch watch;
     bool shared = false;             // among several threads
+    std::uint32_t phases = ~0U;      // in which it runs
     int skip_beats = 0;              // still to be left out
     std::vector<Crossing*> publish;  // crossings that lead out of it
     ComponentTiming timing;
@@ -83,7 +84,7 @@ class GroupRunner {
   void serve_beats(std::uint64_t until_tick, const std::atomic<bool>& stop) noexcept;
   void serve_beat(const Tick& tick, TimeNs latency_ns) noexcept;
   void measure_cpu(StepTime& time, CpuMark& mark) noexcept;
-  static bool left_out(Step& step, const Tick& tick) noexcept;
+  static bool left_out(Step& step, std::uint32_t phase, const Tick& tick) noexcept;
   void judge(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
   void judge_budget(SchedulePlace place, const Tick& tick, const StepTime& time, Step& step) noexcept;
   void react(SchedulePlace place, const Tick& tick, BreachReaction reaction, Step& step) noexcept;
@@ -95,6 +96,7 @@ class GroupRunner {
   TimeNs base_period_;
   Clock& clock_;
   ScheduleObserver& observer_;
+  const std::atomic<std::uint32_t>* phase_;
   Grid grid_;
   std::uint64_t beat_ = 0;          // next to be served
   std::vector<Crossing*> acquire_;  // crossings that lead in

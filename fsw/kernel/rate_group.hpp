@@ -2,6 +2,7 @@
 // and how long each may take.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <string_view>
@@ -19,6 +20,8 @@ struct ScheduledComponent {
   std::chrono::nanoseconds budget{0};
   BudgetRule on_breach{};  ///< what happens when the budget is broken again and again
   int threads = 1;         ///< that share a step (WorkerPool), the group's own included
+  /// Phases of the program in which it runs, a bit each; in the others it is left out (Component::skipped).
+  std::uint32_t phases = ~0U;
 };
 
 inline constexpr int kAnyCore = -1;
@@ -36,6 +39,8 @@ struct RateGroup {
 struct RateGroupTable {
   std::chrono::nanoseconds base_period{0};
   std::vector<RateGroup> groups{};
+  /// The bit of the present phase, looked at when a beat begins; null: there is but one.
+  const std::atomic<std::uint32_t>* phase = nullptr;
 };
 
 }  // namespace omma

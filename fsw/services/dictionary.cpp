@@ -3,6 +3,7 @@
 
 #include "fsw/kernel/crossing.hpp"
 #include "fsw/kernel/wiring.hpp"
+#include "fsw/services/dictionary_parts.hpp"
 #include "fsw/services/event_text.hpp"
 #include "fsw/services/json_text.hpp"
 
@@ -49,6 +50,7 @@ void write_group(JsonText& json, const RateGroup& group, std::chrono::nanosecond
     json.key("budget_s").number(static_cast<double>(scheduled.budget.count()) / 1e9);
     json.key("threads").number(scheduled.threads).key("on_breach");
     write_rule(json, scheduled.on_breach);
+    if (scheduled.phases != kAnyMode) write_modes(json, "modes", scheduled.phases);
     json.close_object();
   }
   json.close_array().close_object();
@@ -70,7 +72,9 @@ std::string dictionary_json(const Dictionary& dictionary, const RateGroupTable& 
   json.open_object().key("program").string(dictionary.program);
   json.key("events").open_array();
   for (const EventDescriptor& event : dictionary.events) write_event(json, event);
-  json.close_array().key("topics").open_array();
+  json.close_array();
+  write_operations(json, dictionary);
+  json.key("topics").open_array();
   for (const TopicDescriptor& topic : dictionary.topics) write_topic(json, topic);
   json.close_array().key("rate_groups").open_array();
   for (const RateGroup& group : table.groups) write_group(json, group, table.base_period);

@@ -7,7 +7,13 @@
 #include <string_view>
 
 #include "fsw/kernel/rate_group.hpp"
+#include "fsw/services/channel.hpp"
+#include "fsw/services/command.hpp"
 #include "fsw/services/event.hpp"
+#include "fsw/services/fault_watch.hpp"
+#include "fsw/services/limit_watch.hpp"
+#include "fsw/services/mode_keeper.hpp"
+#include "fsw/services/parameter.hpp"
 
 namespace omma {
 
@@ -24,6 +30,12 @@ struct TopicDescriptor {
 struct Dictionary {
   std::string_view program;
   std::span<const EventDescriptor> events{};
+  std::span<const CommandDescriptor> commands{};
+  std::span<const ParameterEntry> parameters{};
+  std::span<const ChannelDescriptor> channels{};
+  std::span<const LimitDescriptor> limits{};
+  std::span<const ModeTransition> transitions{};
+  std::span<const FaultRule> fault_rules{};
   std::span<const TopicDescriptor> topics{};
   std::string_view idl{};  ///< the types of all topics, as text
 };

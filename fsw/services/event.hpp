@@ -16,6 +16,8 @@
 
 #include "config/limits.hpp"
 #include "fsw/kernel/tick.hpp"
+#include "fsw/services/descriptors.hpp"
+#include "fsw/services/value.hpp"
 
 namespace omma {
 
@@ -29,7 +31,8 @@ enum class EventSeverity : std::uint8_t {
 /// One number of an event.
 struct EventValue {
   std::string_view name;
-  std::string_view unit{};  ///< empty: a count or an index
+  std::string_view unit{};     ///< empty: a count or an index
+  std::string_view choices{};  ///< "standby|acquire|track": the number is told as the word with that index
 };
 
 struct EventDescriptor {
@@ -73,23 +76,6 @@ constexpr bool is_well_formed(const EventDescriptor& descriptor) {
     if (digit < '0' || static_cast<std::size_t>(digit - '0') >= descriptor.value_count()) return false;
     i += 2;
   }
-  return true;
-}
-
-/// For a static_assert beside the program's list of all events: no two share an id or a name. Works for any
-/// list of descriptors with `id` and `name`.
-template <class Descriptor, std::size_t kCount>
-constexpr bool are_unique(const std::array<Descriptor, kCount>& descriptors) {
-  for (std::size_t a = 0; a < kCount; ++a)
-    for (std::size_t b = a + 1; b < kCount; ++b)
-      if (descriptors[a].id == descriptors[b].id || descriptors[a].name == descriptors[b].name) return false;
-  return true;
-}
-
-template <std::size_t kCount>
-constexpr bool are_well_formed(const std::array<EventDescriptor, kCount>& descriptors) {
-  for (const EventDescriptor& descriptor : descriptors)
-    if (!is_well_formed(descriptor)) return false;
   return true;
 }
 

@@ -8,8 +8,10 @@
 namespace omma {
 namespace {
 
-std::string number(double value) {
+std::string told(double value, const EventValue& declared) {
   if (std::isnan(value)) return "?";
+  if (value >= 0 && value < choice_count(declared.choices))
+    return std::string(choice_name(declared.choices, static_cast<int>(value)));
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;
@@ -42,7 +44,7 @@ std::string event_text(const EventDescriptor& descriptor, const EventRecord& rec
     }
     const auto index = static_cast<std::size_t>(text[i + 1] - '0');
     if (index < record.value_count && index < record.values.size()) {
-      sentence += number(record.values[index]);
+      sentence += told(record.values[index], descriptor.values[index]);
       const std::string_view unit = descriptor.values[index].unit;
       if (!unit.empty()) sentence.append(" ").append(unit);
     } else {

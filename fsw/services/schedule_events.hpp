@@ -6,6 +6,7 @@
 
 #include "fsw/kernel/schedule_observer.hpp"
 #include "fsw/services/events.hpp"
+#include "fsw/services/mode_keeper.hpp"
 
 namespace omma {
 
@@ -45,7 +46,8 @@ static_assert(are_unique(kScheduleEvents) && are_well_formed(kScheduleEvents));
 /// To be given to the scheduler.
 class ScheduleEvents final : public ScheduleObserver {
  public:
-  explicit ScheduleEvents(Events& events) : events_(events) {}
+  /// @param modes  who goes to safe mode where a broken budget asks for it; may be null
+  explicit ScheduleEvents(Events& events, ModeKeeper* modes = nullptr) : events_(events), modes_(modes) {}
 
   void over_budget(SchedulePlace place, const Tick& tick, const StepTime& time,
                    TimeNs budget_ns) noexcept override {
@@ -58,6 +60,7 @@ class ScheduleEvents final : public ScheduleObserver {
   void budget_reaction(SchedulePlace place, const Tick& tick, BreachReaction reaction,
                        int level) noexcept override {
     events_.raise<kBudgetReaction>(tick, place.component, static_cast<int>(reaction), level);
+    if (reaction == BreachReaction::kSafe && modes_ != nullptr) modes_->request_safe(ModeCause::kBudget);
   }
   void budget_recovered(SchedulePlace place, const Tick& tick, int level) noexcept override {
     events_.raise<kBudgetRecovered>(tick, place.component, level);
@@ -70,6 +73,7 @@ class ScheduleEvents final : public ScheduleObserver {
   static double microseconds(TimeNs duration) { return static_cast<double>(duration) * 1e-3; }
 
   Events& events_;
+  ModeKeeper* modes_;
 };
 
 }  // namespace omma

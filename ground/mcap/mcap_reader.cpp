@@ -11,6 +11,7 @@
 
 #include "components/telemetry/mcap_format.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "fsw/services/crc32.hpp"
 
 namespace omma::mcap {
 namespace {

@@ -154,6 +154,27 @@ void add_health(Table& table, const omma_Health& health) {
                    count(health.events_dropped), count(health.telemetry_dropped), count(health.log_lost)));
 }
 
+const char* name_of(omma_Mode mode) {
+  static constexpr const char* kNames[] = {"standby", "acquire", "track", "SAFE"};
+  return kNames[static_cast<std::size_t>(mode)];
+}
+
+void add_status(Table& table, const omma_Status& status) {
+  const LineStyle style = status.mode == omma_MODE_SAFE || status.limits_alarmed > 0 ? LineStyle::kBad
+                          : status.limits_warned > 0                                 ? LineStyle::kWarning
+                          : status.mode == omma_MODE_TRACK                           ? LineStyle::kGood
+                                                                                     : LineStyle::kPlain;
+  table.add(
+      TopicId::kStatus, style,
+      format("mode %s since %.3f s   limits: %u warned, %u in alarm", name_of(status.mode),
+             static_cast<double>(status.mode_since_ns) * 1e-9, status.limits_warned, status.limits_alarmed));
+  table.add(TopicId::kStatus, LineStyle::kPlain,
+            format("commands accepted %u, rejected %u, newest number %u   session %u",
+                   status.commands_accepted, status.commands_rejected, status.last_sequence, status.session));
+  table.add(TopicId::kStatus, LineStyle::kPlain,
+            format("parameter set %u, %u staged", status.parameter_set, status.parameters_staged));
+}
+
 void add_timing(Table& table, const omma_Timing& timing) {
   table.plain("component         steps   mean ms    p99 ms    max ms  budget ms   over");
   for (std::uint32_t i = 0; i < timing.steps._length; ++i) {
@@ -222,6 +243,8 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
                   ? format("no spacecraft heard yet in domain %d", link.domain)
                   : format("%s, domain %d   %.1f frame sets/s   %llu samples lost", link.spacecraft.c_str(),
                            link.domain, samples.frame_rate(), static_cast<unsigned long long>(link.lost)));
+  table.heading("STATUS", TopicId::kStatus);
+  if (samples.status() != nullptr) add_status(table, *samples.status());
   table.heading("CAMERAS", TopicId::kFrameSet);
   if (samples.frame_set() != nullptr) add_cameras(table, *samples.frame_set());
   table.heading("ATTITUDE", TopicId::kAttitude);

@@ -53,18 +53,36 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
       const omma_Event* event = nullptr;
       sound = keep(event_reader_, cdr, event);
       if (!sound) break;
-      events_.push_back({event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name,
-                         event->runs_ago});
-      if (events_.size() > kEvents) events_.pop_front();
+      add_event({event->time_ns, event->severity, event->text[0] != '\0' ? event->text : event->name,
+                 event->runs_ago});
       break;
     }
-    case TopicId::kDots:
-      break;  // the frame set has their counts
+    case TopicId::kCommandAck: {
+      const omma_CommandAck* ack = nullptr;
+      sound = keep(ack_reader_, cdr, ack);
+      if (!sound) break;
+      const bool good = ack->stage == omma_COMMAND_ACCEPTED || ack->stage == omma_COMMAND_COMPLETED;
+      add_event({ack->time_ns, good ? omma_EVENT_ACTIVITY : omma_EVENT_WARNING, ack->text, 0});
+      break;
+    }
+    case TopicId::kStatus:
+      sound = keep(status_reader_, cdr, status_);
+      break;
+    case TopicId::kParameters:
+    case TopicId::kDots:  // the frame set has their counts
+    case TopicId::kCommand:
+    case TopicId::kDictionary:
+      break;
   }
   if (sound)
     came_[id] = now;
   else
     ++undecodable_;
+}
+
+void NewestSamples::add_event(EventLine line) {
+  events_.push_back(std::move(line));
+  if (events_.size() > kEvents) events_.pop_front();
 }
 
 std::optional<double> NewestSamples::age(telemetry::TopicId id, SteadyClock::time_point now) const {

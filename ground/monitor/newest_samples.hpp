@@ -38,8 +38,10 @@ class NewestSamples {
   const omma_FrameTiming* frame_timing() const { return frame_timing_; }
   const omma_UtcCorrelation* utc() const { return utc_; }
   const omma_ImageChunk* image_chunk() const { return image_chunk_; }
+  const omma_Status* status() const { return status_; }
   const std::map<int, omma_RelativePose>& poses() const { return poses_; }  ///< by body
-  const std::deque<EventLine>& events() const { return events_; }           ///< oldest first
+  /// Events and what became of commands, oldest first.
+  const std::deque<EventLine>& events() const { return events_; }
 
   /// Seconds since a sample of the topic came; none where none has.
   std::optional<double> age(telemetry::TopicId id, SteadyClock::time_point now) const;
@@ -48,6 +50,8 @@ class NewestSamples {
   std::uint64_t undecodable() const { return undecodable_; }
 
  private:
+  void add_event(EventLine line);
+
   telemetry::CdrReader frame_set_reader_{telemetry::TopicId::kFrameSet};
   telemetry::CdrReader attitude_reader_{telemetry::TopicId::kAttitude};
   telemetry::CdrReader pose_reader_{telemetry::TopicId::kRelativePose};
@@ -57,6 +61,8 @@ class NewestSamples {
   telemetry::CdrReader utc_reader_{telemetry::TopicId::kUtc};
   telemetry::CdrReader event_reader_{telemetry::TopicId::kEvent};
   telemetry::CdrReader image_reader_{telemetry::TopicId::kImageChunk};
+  telemetry::CdrReader ack_reader_{telemetry::TopicId::kCommandAck};
+  telemetry::CdrReader status_reader_{telemetry::TopicId::kStatus};
   const omma_FrameSet* frame_set_ = nullptr;
   const omma_Attitude* attitude_ = nullptr;
   const omma_Health* health_ = nullptr;
@@ -64,6 +70,7 @@ class NewestSamples {
   const omma_FrameTiming* frame_timing_ = nullptr;
   const omma_UtcCorrelation* utc_ = nullptr;
   const omma_ImageChunk* image_chunk_ = nullptr;
+  const omma_Status* status_ = nullptr;
   std::map<int, omma_RelativePose> poses_;
   std::deque<EventLine> events_;
   std::map<telemetry::TopicId, SteadyClock::time_point> came_;

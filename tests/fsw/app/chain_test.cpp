@@ -15,10 +15,12 @@
 #include "components/telemetry/log_sink.hpp"
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/app/mission.hpp"
+#include "fsw/app/program_dictionary.hpp"
 #include "fsw/app/topology.hpp"
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/scheduler.hpp"
+#include "fsw/services/command_script.hpp"
 #include "ground/recording.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
@@ -88,16 +90,23 @@ class Chain : public testing::Test {
            ("chain_test_" + std::to_string(getpid()) + "_" + std::to_string(workers) + ".mcap");
   }
   /// Leaves its telemetry in log(workers).
-  static std::vector<FrameSetResult> fly(int workers, int rounds = 1) {
+  /// @param commands  a script; empty: none are given
+  static std::vector<FrameSetResult> fly(int workers, int rounds = 1, const std::string& commands = {}) {
     Mission mission = read_mission(config("demo.toml"));
     mission.recording = frames();
     Topology topology(mission, {.lockstep = true, .workers = workers, .rounds = rounds});
     const std::uint64_t frame_sets = topology.frame_sets();
+    if (!commands.empty()) {
+      const std::filesystem::path script = log(workers).string() + ".commands";
+      std::ofstream(script) << commands;
+      topology.commander.play(read_command_script(script, topology.vocabulary()));
+      std::filesystem::remove(script);
+    }
     LockstepClock clock;
     Keeper keeper(topology, frame_sets);
     Scheduler scheduler(topology.table(), clock, keeper);
     topology.health.observe(scheduler);
-    TelemetryOutput output(topology.telemetry, {});
+    TelemetryOutput output(topology.telemetry, {kEvents.begin(), kEvents.end()}, topology.vocabulary());
     output.add(std::make_unique<telemetry::LogSink>(log(workers).string(), "chain", true));
     clock.before_each_tick([&] { output.wait_for_room(); });
     output.start();
@@ -176,6 +185,51 @@ TEST_F(Chain, LogsTheSameBytesWithOneWorkerAndWithTwo) {
     EXPECT_EQ(logged[f].rig_from_j2000.w, results[f].attitude.solution.rig_from_j2000.w());
     EXPECT_EQ(logged[f].stars_used, results[f].attitude.solution.pairs);
   }
+}
+
+TEST_F(Chain, WithCommandsLogsTheSameBytesWithOneWorkerAndWithTwo) {
+  const std::string commands =
+      "4 set_parameter tracker.least_star_pairs 100\n"  // more than there are: the sky is not tracked
+      "4 set_parameter extractor.threshold.cam0 2000\n"
+      "5 commit_parameters\n"
+      "8 search_again\n"
+      "10 set_mode standby\n"
+      "13 set_mode track\n"
+      "14 set_mode acquire\n"
+      "16 set_mode safe\n";
+  const memory_guard::Violations before = memory_guard::violations();
+  const std::vector<FrameSetResult> one = fly(1, 1, commands);
+  EXPECT_EQ(memory_guard::violations().total(), before.total());
+  fly(2, 1, commands);
+  EXPECT_EQ(bytes_of(log(1)), bytes_of(log(2)));
+
+  for (std::size_t f = 11; f < 15; ++f) EXPECT_FALSE(one[f].attitude.valid) << "standby, frame set " << f;
+  EXPECT_TRUE(one[15].attitude.valid) << "acquired again";
+  EXPECT_TRUE(one[15].poses.bodies[0].valid);
+  EXPECT_TRUE(one[19].attitude.valid) << "safe mode keeps attitude";
+  EXPECT_FALSE(one[19].poses.bodies[0].valid) << "and leaves out poses";
+
+  ground::Recording recording(log(1).string());
+  std::vector<std::string> answers;
+  recording.for_each<omma_CommandAck>([&](const omma_CommandAck& ack) {
+    if (ack.stage != omma_COMMAND_ACCEPTED) answers.emplace_back(ack.text);
+  });
+  ASSERT_EQ(answers.size(), 8U);
+  EXPECT_EQ(answers[0], "set_parameter tracker.least_star_pairs 100: completed");
+  EXPECT_EQ(
+      answers[1],
+      "set_parameter extractor.threshold.cam0 2000: rejected: value is 2000, and must be a number 1 to 100");
+  EXPECT_EQ(answers[2], "commit_parameters: completed");
+  EXPECT_EQ(answers[5], "set_mode track: rejected: its receiver's condition is not met");
+  EXPECT_EQ(answers[6], "set_mode acquire: completed");
+  omma_Status last{};
+  recording.for_each<omma_Status>([&last](const omma_Status& status) { last = status; });
+  EXPECT_EQ(last.mode, omma_MODE_SAFE);
+  EXPECT_EQ(last.parameter_set, 1U);
+  EXPECT_EQ(last.commands_accepted, 6U);
+  int sets = 0;
+  recording.for_each<omma_Parameters>([&sets](const omma_Parameters&) { ++sets; });
+  EXPECT_EQ(sets, 2) << "at the start, and with the commit";
 }
 
 // Every round ends with a jump back to the first frame set: sky and card are lost and found again.

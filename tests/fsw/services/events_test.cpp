@@ -128,6 +128,13 @@ TEST(Events, FromManyThreadsAllArriveOnceOrAreCountedAsDropped) {
   EXPECT_GT(received, 0U);
 }
 
+TEST(EventText, TellsAChoiceByItsWord) {
+  constexpr EventDescriptor kTurned{
+      .id = 10, .name = "turned", .text = "turned {0}", .values = {{{"side", "", "left|right"}}}};
+  EXPECT_EQ(event_text(kTurned, {.id = 10, .value_count = 1, .values = {1.0}}), "turned right");
+  EXPECT_EQ(event_text(kTurned, {.id = 10, .value_count = 1, .values = {2.0}}), "turned 2");
+}
+
 TEST(EventText, SaysWhenARecordLacksANumber) {
   EventRecord record{.id = 7, .value_count = 1, .values = {3.0}};
   EXPECT_EQ(event_text(kCameraLost, record), "camera 3 gave no frame for ?");

@@ -1,0 +1,18 @@
+// The parts of the dictionary that tell how the program is operated: commands, parameters, channels and their
+// limits, modes, fault rules.
+#pragma once
+
+#include <string_view>
+
+#include "fsw/services/dictionary.hpp"
+#include "fsw/services/json_text.hpp"
+
+namespace omma {
+
+/// Inside the dictionary's object.
+void write_operations(JsonText& json, const Dictionary& dictionary);
+
+/// A key with the names of the modes.
+void write_modes(JsonText& json, std::string_view key, ModeSet set);
+
+}  // namespace omma

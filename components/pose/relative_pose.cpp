@@ -15,6 +15,7 @@ void RelativePose::step(const Tick& /*tick*/) noexcept {
     out.time_ns = pairings->time_ns;
     out.body = pairings->bodies[b].body;
     solve_body(pairings->bodies[b], out);
+    check_body(pairings->bodies[b], out);
   }
 }
 
@@ -38,6 +39,19 @@ void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexc
   if (has_last_[body.body] && q.dot(last_[body.body]) < 0) q.coeffs() = -q.coeffs();
   has_last_[body.body] = true;
   last_[body.body] = q;
+}
+
+void RelativePose::check_body(const BodyPairings& body, PoseEstimate& out) noexcept {
+  out.integrity = {};
+  const bool enough = out.solution.pairs >= parameters_.least_pairs;
+  out.position_valid = out.valid || (enough && out.solution.status == SolveStatus::kUnobservable &&
+                                     out.solution.position_observable);
+  out.rotation_valid = out.valid && out.solution.rotation_observable;
+  if (!out.position_valid) return;
+  sources_.clear();
+  for (const Pairing& pairing : body.pairs) sources_.push_back({pairing.camera, pairing.entry});
+  out.integrity =
+      pose_integrity(sights_, sources_, out.used, out.solution, parameters_.axes, parameters_.integrity);
 }
 
 }  // namespace omma

@@ -10,7 +10,9 @@ void BodyPairing::predict(const RigCamera& camera, const TargetBody& body,
   points_.clear();
   const Eigen::Matrix3d camera_from_rig = camera.rig_from_camera.rotation.toRotationMatrix().transpose();
   const Eigen::Matrix3d rotation = prediction.rig_from_body.rotation.toRotationMatrix();
+  const Eigen::Vector3d viewpoint = prediction.rig_from_body.inverse() * camera.rig_from_camera.translation;
   for (std::size_t i = 0; i < body.targets.size(); ++i) {
+    if (!faces(body.targets[i], viewpoint)) continue;
     const Eigen::Vector3d arm = rotation * body.targets[i].position;
     const Eigen::Vector3d gap =
         arm + prediction.rig_from_body.translation - camera.rig_from_camera.translation;

@@ -5,6 +5,7 @@
 #include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
+#include "components/estimation/calibration_error_file.hpp"
 #include "components/geometry/rig_file.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
@@ -182,6 +183,12 @@ Mission read_mission(const std::filesystem::path& file) {
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   if (const auto attitude = root.table_if("attitude"))
     mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
+  IntegrityOptions integrity;
+  if (const auto table = root.table_if("integrity")) integrity = read_integrity(*table);
+  if (const auto table = root.table_if("calibration_error"))
+    integrity.calibration = read_calibration_error(*table);
+  mission.attitude.integrity = mission.pose.integrity = integrity;
+  mission.attitude.axes = mission.pose.axes = camera_axes(mission.rig);
   if (const auto imaging = root.table_if("imaging")) {
     mission.panorama_width =
         static_cast<int>(imaging->integer("panorama_width", {64, 4096}, mission.panorama_width));

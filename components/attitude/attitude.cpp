@@ -26,6 +26,7 @@ void Attitude::step(const Tick& /*tick*/) noexcept {
     filter_.set_acceleration_density(parameters_.mekf.acceleration_density);
   }
   solve_frame_set();
+  check_frame_set();
   if (parameters_.filter == AttitudeFilterKind::kMekf) filter_frame_set();
 }
 
@@ -77,6 +78,18 @@ void Attitude::solve_frame_set() noexcept {
   last_time_ns_ = out.time_ns;
 }
 
+void Attitude::check_frame_set() noexcept {
+  AttitudeEstimate& out = *estimate;
+  out.integrity = {};
+  if (!out.valid) return;
+  sources_.clear();
+  for (const Pairing& pairing : pairings->sky.pairs) sources_.push_back({pairing.camera, pairing.entry});
+  out.integrity =
+      attitude_integrity(sights_, sources_, out.used, out.solution, parameters_.axes, parameters_.integrity);
+  if (parameters_.integrity.calibration.any())
+    calibration_ = out.integrity.rig.covariance.topLeftCorner<3, 3>() - out.solution.covariance;
+}
+
 void Attitude::filter_frame_set() noexcept {
   AttitudeEstimate& out = *estimate;
   predict_to(out.time_ns);
@@ -87,7 +100,7 @@ void Attitude::filter_frame_set() noexcept {
   }
   out.filtered.valid = filter_.valid();
   out.filtered.rig_from_j2000 = filter_.rig_from_j2000();
-  out.filtered.covariance = filter_.attitude_covariance();
+  out.filtered.covariance = filter_.attitude_covariance() + calibration_;
   out.filtered.rate = filter_.rate();
   out.filtered.rate_covariance = filter_.rate_covariance();
   out.filtered.gyro_bias = filter_.gyro_bias();

@@ -6,6 +6,7 @@
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/attitude/rate_measurements.hpp"
 #include "components/estimation/attitude_filter.hpp"
+#include "components/estimation/integrity.hpp"
 #include "components/estimation/least_squares.hpp"
 #include "components/tracker/pairings.hpp"
 #include "fsw/kernel/component.hpp"
@@ -23,6 +24,8 @@ struct AttitudeParameters {
   SolveOptions solve;
   AttitudeFilterKind filter = AttitudeFilterKind::kNone;
   AttitudeFilterParameters mekf;
+  IntegrityOptions integrity;
+  CameraAxes axes = camera_axes(Rig{});
   int least_pairs = 4;  ///< fewer pairs after the cull give no attitude
 };
 
@@ -63,6 +66,7 @@ class Attitude final : public Component {
  private:
   void withdraw() noexcept;
   void solve_frame_set() noexcept;
+  void check_frame_set() noexcept;
   void filter_frame_set() noexcept;
   void predict_to(TimeNs time_ns) noexcept;
   bool uses_gyro() const { return parameters_.filter == AttitudeFilterKind::kMekf && parameters_.mekf.gyro; }
@@ -71,7 +75,10 @@ class Attitude final : public Component {
   AttitudeFilter filter_;
   TimeNs filter_time_ns_ = 0;
   Eigen::Matrix3d last_covariance_ = Eigen::Matrix3d::Zero();
+  /// What calibration adds to the covariance, of the last attitude: a filter does not average it away.
+  Eigen::Matrix3d calibration_ = Eigen::Matrix3d::Zero();
   StaticVector<Sight, limits::kStarPairs> sights_;
+  StaticVector<SightSource, limits::kStarPairs> sources_;
   bool has_last_ = false;
   TimeNs last_time_ns_ = 0;
   Eigen::Quaterniond last_ = Eigen::Quaterniond::Identity();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "components/estimation/integrity.hpp"
 #include "components/estimation/solution.hpp"
 #include "config/limits.hpp"
 #include "fsw/kernel/static_vector.hpp"
@@ -14,7 +15,7 @@ namespace omma {
 struct FilteredAttitude {
   bool valid = false;
   Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< δθ, rig frame [rad²]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< δθ, rig frame, calibration included [rad²]
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();        ///< of the rig, rig frame [rad/s]
   Eigen::Matrix3d rate_covariance = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();  ///< with a gyro [rad/s]
@@ -26,6 +27,7 @@ struct AttitudeEstimate {
   TimeNs time_ns = 0;  ///< exposure midpoint
   bool valid = false;  ///< false: `solution` is not to be used
   AttitudeSolution solution;
+  Integrity integrity;  ///< of the solution, with its covariance including calibration
   Eigen::Vector3d rate =
       Eigen::Vector3d::Zero();  ///< of the rig, rig frame, mean since the last attitude [rad/s]
   Eigen::Matrix3d rate_covariance = Eigen::Matrix3d::Zero();  ///< [rad²/s²]

@@ -9,7 +9,8 @@
 namespace omma {
 namespace {
 
-constexpr std::array<const char*, 6> kColumns = {"id", "x", "y", "z", "group", "type"};
+constexpr std::array<const char*, 9> kColumns = {"id", "x", "y", "z", "group", "type", "nx", "ny", "nz"};
+constexpr std::size_t kWithoutNormal = 6;
 
 // Between tabs a field may be empty, so that an empty id is seen as one.
 std::vector<std::string_view> fields_of(std::string_view line) {
@@ -29,8 +30,9 @@ class TargetLine {
  public:
   TargetLine(std::string_view line, const std::string& file, int number)
       : fields_(fields_of(line)), file_(file), number_(number) {
-    if (fields_.size() != kColumns.size()) {
-      throw InputError(file_, number_, "target", "6 fields between tabs: id x y z group type",
+    if (fields_.size() != kWithoutNormal && fields_.size() != kColumns.size()) {
+      throw InputError(file_, number_, "target",
+                       "6 fields between tabs: id x y z group type (or 9, with a normal nx ny nz)",
                        std::to_string(fields_.size()));
     }
   }
@@ -58,10 +60,22 @@ class TargetLine {
     if (!type || (*type != 0 && *type != 1)) throw error(5, "0 (dark dot on light) or 1 (light dot on dark)");
     target.group = *group;
     target.type = *type;
+    if (fields_.size() == kColumns.size()) target.normal = normal();
     return target;
   }
 
  private:
+  Eigen::Vector3d normal() const {
+    Eigen::Vector3d outward;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto value = finite_number(fields_[kWithoutNormal + i]);
+      if (!value) throw error(kWithoutNormal + i, "a finite number");
+      outward[static_cast<Eigen::Index>(i)] = *value;
+    }
+    if (!(outward.norm() > 1e-6)) throw error(kWithoutNormal, "a normal that is not zero");
+    return outward.normalized();
+  }
+
   std::vector<std::string_view> fields_;
   const std::string& file_;
   int number_;
@@ -69,7 +83,7 @@ class TargetLine {
 
 bool is_header(std::string_view line) {
   const auto fields = fields_of(line);
-  return fields.size() == kColumns.size() && fields[0] == kColumns[0] && fields[1] == kColumns[1];
+  return fields.size() >= kWithoutNormal && fields[0] == kColumns[0] && fields[1] == kColumns[1];
 }
 
 }  // namespace

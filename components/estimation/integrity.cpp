@@ -247,6 +247,7 @@ Integrity attitude_integrity(std::span<const Sight> sights, std::span<const Sigh
   Integrity integrity;
   if (!has_answer(solution) || sources.size() != sights.size()) return integrity;
   const Pose pose{solution.rig_from_j2000, Eigen::Vector3d::Zero()};
+  integrity.rig.covariance.topLeftCorner<3, 3>() = solution.covariance;
   Check<kAttitudeUnknowns> check(sights, sources, used, pose, axes, options, integrity);
   check.run();
   return integrity;
@@ -257,6 +258,7 @@ Integrity pose_integrity(std::span<const Sight> sights, std::span<const SightSou
                          const CameraAxes& axes, const IntegrityOptions& options) noexcept {
   Integrity integrity;
   if (!has_answer(solution) || sources.size() != sights.size()) return integrity;
+  integrity.rig.covariance = solution.covariance;
   Check<kPoseUnknowns> check(sights, sources, used, solution.rig_from_body, axes, options, integrity);
   check.run();
   if (solution.ambiguous && solution.has_alternative) check.allow(solution.alternative);

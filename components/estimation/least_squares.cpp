@@ -1,10 +1,10 @@
 #include "components/estimation/least_squares.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "components/estimation/covariance.hpp"
 #include "components/estimation/cull.hpp"
 #include "components/estimation/descent.hpp"
 #include "components/estimation/flat_card.hpp"
@@ -205,25 +205,6 @@ class Fit {
   std::array<double, kMaxSights> scratch_;
 };
 
-template <int kUnknowns>
-using Covariance = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-
-template <int kUnknowns>
-Covariance<kUnknowns> inverse(const Covariance<kUnknowns>& information) noexcept {
-  using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-  const Vector scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  const Covariance<kUnknowns> scaled = scale.asDiagonal() * information * scale.asDiagonal();
-  const Covariance<kUnknowns> whole =
-      Eigen::LLT<Covariance<kUnknowns>>(scaled).solve(Covariance<kUnknowns>::Identity());
-  return scale.asDiagonal() * whole * scale.asDiagonal();
-}
-
-double largest_sigma(const Eigen::Matrix3d& covariance) noexcept {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[2]));
-}
-
 /// What attitude and pose have in common: counts, χ², status short of what only one of them can tell.
 template <int kUnknowns, class Solution>
 void report(const Fit<kUnknowns>& fit, std::size_t offered, const SolveOptions& options,
@@ -247,8 +228,9 @@ void report(const Fit<kUnknowns>& fit, std::size_t offered, const SolveOptions& 
   } else {
     solution.status = descent.converged ? SolveStatus::kSolved : SolveStatus::kIterationCap;
   }
-  if (!descent.singular && fit.kept() >= kFewestPairs<kUnknowns>)
-    solution.covariance = inverse<kUnknowns>(descent.information);
+  if (!descent.singular && fit.kept() >= kFewestPairs<kUnknowns> &&
+      !covariance_of<kUnknowns>(descent.information, solution.covariance))
+    solution.status = SolveStatus::kUnobservable;
 }
 
 double prior_cost(const Pose& pose, const Pose& initial, const SolveOptions& options) noexcept {
@@ -326,16 +308,21 @@ void follow_second_minimum(const CardShape& shape, const Pose& initial, const So
   if (options.cull == CullRule::kChiSquare) fit.cull_and_descend();
 }
 
+struct Observable {
+  bool position, rotation;
+};
+
 /// σ of the card's centre in its weakest direction against its distance, and of its rotation.
-bool observable(const CardShape& shape, const PoseSolution& solution, const SolveOptions& options) noexcept {
+Observable observable(const CardShape& shape, const PoseSolution& solution,
+                      const SolveOptions& options) noexcept {
   const Eigen::Vector3d lever = solution.rig_from_body.rotation * shape.centroid;
   Eigen::Matrix<double, 3, 6> centre_by_unknowns;
   centre_by_unknowns << -skew(lever), Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d position = centre_by_unknowns * solution.covariance * centre_by_unknowns.transpose();
   const double range = (solution.rig_from_body * shape.centroid - shape.viewpoint).norm();
   const Eigen::Matrix3d rotation = solution.covariance.topLeftCorner<3, 3>();
-  return largest_sigma(position) <= options.largest_position_sigma * range &&
-         largest_sigma(rotation) <= options.largest_rotation_sigma;
+  return {largest_sigma(position) <= options.largest_position_sigma * range,
+          largest_sigma(rotation) <= options.largest_rotation_sigma};
 }
 
 }  // namespace
@@ -375,7 +362,11 @@ PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial, cons
   if (fit.kept() == kFewestPairs<kPoseUnknowns>) solution.ambiguous = true;
   const bool solved =
       solution.status == SolveStatus::kSolved || solution.status == SolveStatus::kIterationCap;
-  if (solved && !observable(shape, solution, options)) solution.status = SolveStatus::kUnobservable;
+  if (!solved) return solution;
+  const Observable fixed = observable(shape, solution, options);
+  solution.position_observable = fixed.position;
+  solution.rotation_observable = fixed.rotation && (!solution.ambiguous || solution.has_alternative);
+  if (!fixed.position || !fixed.rotation) solution.status = SolveStatus::kUnobservable;
   return solution;
 }
 

@@ -33,6 +33,10 @@ struct AttitudeSolution {
 struct PoseSolution {
   SolveStatus status = SolveStatus::kNone;
   Pose rig_from_body;
+  /// Of a far frontal card range and bearing are known and the rotation is not: its σ is too large, or it
+  /// lies anywhere in a valley that the covariance does not show.
+  bool position_observable = false;
+  bool rotation_observable = false;
   Matrix6d covariance = Matrix6d::Zero();  ///< (δθ, δt), rig frame [rad², rad·m, m²]
   double chi2 = 0;
   double residual_rms = 0;  ///< angular residual of the pairs used [rad]

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "components/estimation/integrity.hpp"
 #include "components/estimation/solution.hpp"
 #include "config/limits.hpp"
 #include "fsw/kernel/static_vector.hpp"
@@ -12,10 +13,13 @@ namespace omma {
 
 struct PoseEstimate {
   std::uint64_t frame = 0;
-  TimeNs time_ns = 0;     ///< exposure midpoint
-  std::uint8_t body = 0;  ///< index in the mission
-  bool valid = false;
+  TimeNs time_ns = 0;           ///< exposure midpoint
+  std::uint8_t body = 0;        ///< index in the mission
+  bool valid = false;           ///< the pose may be gone on from
+  bool position_valid = false;  ///< range and bearing may be used: the rotation alone may be unknown
+  bool rotation_valid = false;
   PoseSolution solution;
+  Integrity integrity;  ///< of the solution, with its covariance including calibration and survey
   /// One entry per pairing of the body (BodyPairings::pairs): 1 used, 0 culled.
   StaticVector<std::uint8_t, limits::kTargetPairs> used;
 };

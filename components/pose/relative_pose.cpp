@@ -9,8 +9,10 @@ void RelativePose::visit_ports(PortVisitor& visitor) const {
 
 void RelativePose::step(const Tick& /*tick*/) noexcept {
   estimates->bodies.resize(pairings->bodies.size());
-  for (std::size_t b = 0; b < pairings->bodies.size(); ++b)
+  for (std::size_t b = 0; b < pairings->bodies.size(); ++b) {
     solve_body(pairings->bodies[b], estimates->bodies[b]);
+    check_body(pairings->bodies[b], estimates->bodies[b]);
+  }
 }
 
 void RelativePose::skipped(const Tick& /*tick*/) noexcept {
@@ -47,6 +49,19 @@ void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexc
   if (has_last_[body.body] && q.dot(last_[body.body]) < 0) q.coeffs() = -q.coeffs();
   has_last_[body.body] = true;
   last_[body.body] = q;
+}
+
+void RelativePose::check_body(const BodyPairings& body, PoseEstimate& out) noexcept {
+  out.integrity = {};
+  const bool enough = out.solution.pairs >= parameters_.least_pairs;
+  out.position_valid = out.valid || (enough && out.solution.status == SolveStatus::kUnobservable &&
+                                     out.solution.position_observable);
+  out.rotation_valid = out.valid && out.solution.rotation_observable;
+  if (!out.position_valid) return;
+  sources_.clear();
+  for (const Pairing& pairing : body.pairs) sources_.push_back({pairing.camera, pairing.entry});
+  out.integrity =
+      pose_integrity(sights_, sources_, out.used, out.solution, parameters_.axes, parameters_.integrity);
 }
 
 }  // namespace omma

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "components/estimation/integrity.hpp"
 #include "components/estimation/least_squares.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/tracker/pairings.hpp"
@@ -13,6 +14,8 @@ namespace omma {
 
 struct RelativePoseParameters {
   SolveOptions solve;
+  IntegrityOptions integrity;
+  CameraAxes axes = camera_axes(Rig{});
   int least_pairs = 4;  ///< fewer pairs after the cull give no pose
 };
 
@@ -31,9 +34,11 @@ class RelativePose final : public Component {
  private:
   void withdraw(const BodyPairings& body, PoseEstimate& out) noexcept;
   void solve_body(const BodyPairings& body, PoseEstimate& out) noexcept;
+  void check_body(const BodyPairings& body, PoseEstimate& out) noexcept;
 
   RelativePoseParameters parameters_;
   StaticVector<Sight, limits::kTargetPairs> sights_;
+  StaticVector<SightSource, limits::kTargetPairs> sources_;
   std::array<Eigen::Quaterniond, limits::kTargetBodies> last_{};
   std::array<bool, limits::kTargetBodies> has_last_{};
 };

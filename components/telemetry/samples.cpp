@@ -36,6 +36,7 @@ static_assert(omma_MOTION_MOVING == static_cast<int>(ObjectMotion::kMoving));
 static_assert(omma_MOTION_WITH_THE_STARS == static_cast<int>(ObjectMotion::kWithTheStars));
 static_assert(omma_MOTION_WITH_THE_RIG == static_cast<int>(ObjectMotion::kWithTheRig));
 static_assert(omma_IMAGE_PANORAMA_J2000 == static_cast<int>(ImageKind::kPanoramaJ2000));
+static_assert(omma_INTEGRITY_ALERT == static_cast<int>(IntegrityState::kAlert));
 static_assert(omma_IMAGE_PANORAMA_RIG == static_cast<int>(ImageKind::kPanoramaRig));
 static_assert(omma_IMAGE_VIEW == static_cast<int>(ImageKind::kView));
 static_assert(omma_IMAGE_FISHEYE_J2000 == static_cast<int>(ImageKind::kFisheyeJ2000));
@@ -85,6 +86,13 @@ template <class Matrix>
 void put_matrix(const Matrix& matrix, double* out) noexcept {
   for (Eigen::Index row = 0; row < matrix.rows(); ++row)
     for (Eigen::Index column = 0; column < matrix.cols(); ++column) *out++ = matrix(row, column);
+}
+
+void put_in_j2000(const Eigen::Quaterniond& rig_from_j2000, const Eigen::Matrix3d& covariance,
+                  double* out) noexcept {
+  const Eigen::Matrix3d rotation = rig_from_j2000.toRotationMatrix();
+  const Eigen::Matrix3d in_j2000 = rotation.transpose() * covariance * rotation;
+  put_matrix(in_j2000, out);
 }
 
 std::uint32_t star_count(const Pairings& pairings, std::size_t camera) noexcept {
@@ -223,6 +231,35 @@ void claim(const BodyPairings& body, const PoseEstimate* pose, std::span<omma_Ca
   }
 }
 
+namespace {
+
+void fill(const Integrity& integrity, omma_Integrity& out) noexcept {
+  out.state = same<omma_IntegrityState>(integrity.state);
+  out.risk = integrity.risk;
+  out.freedom = integrity.freedom;
+  out.chi2_probability = integrity.chi2_probability;
+  out.suspect_dot_camera = integrity.suspect_dot.camera;
+  out.suspect_dot_entry = integrity.suspect_dot.entry;
+  out.suspect_dot_sigma = integrity.suspect_dot_sigma;
+  out.suspect_camera = integrity.suspect_camera;
+  out.suspect_camera_probability = integrity.suspect_camera_probability;
+  out.cameras_checked = integrity.cameras_checked;
+  out.dot_separation_rad = integrity.dot_separation_rad;
+  out.dot_separation_m = integrity.dot_separation_m;
+  out.camera_separation_rad = integrity.camera_separation_rad;
+  out.camera_separation_m = integrity.camera_separation_m;
+  out.weakest_rotation = vector(integrity.weakest_rotation.direction);
+  out.weakest_rotation_sigma_rad = integrity.weakest_rotation.sigma;
+  out.weakest_position = vector(integrity.weakest_position.direction);
+  out.weakest_position_sigma_m = integrity.weakest_position.sigma;
+  out.protection_rad = vector(integrity.rig.protection_level.head<3>());
+  out.protection_m = vector(integrity.rig.protection_level.tail<3>());
+  out.body_protection_rad = vector(integrity.body.protection_level.head<3>());
+  out.body_protection_m = vector(integrity.body.protection_level.tail<3>());
+}
+
+}  // namespace
+
 void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept {
   const AttitudeSolution& solution = attitude.solution;
   out.frame = attitude.frame;
@@ -230,7 +267,8 @@ void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept {
   out.valid = attitude.valid;
   out.state = same<omma_SolveState>(solution.status);
   out.rig_from_j2000 = quaternion(solution.rig_from_j2000);
-  put_matrix(solution.covariance, out.covariance_rad2);
+  const Eigen::Matrix3d covariance = attitude.integrity.rig.covariance.topLeftCorner<3, 3>();
+  put_matrix(covariance, out.covariance_rad2);
   out.rate_valid = attitude.rate_valid;
   out.rate_rad_s = vector(attitude.rate);
   put_matrix(attitude.rate_covariance, out.rate_covariance_rad2_s2);
@@ -239,12 +277,15 @@ void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept {
   out.stars_used = solution.pairs;
   out.stars_culled = solution.culled;
   out.iterations = solution.iterations;
+  fill(attitude.integrity, out.integrity);
+  put_in_j2000(solution.rig_from_j2000, covariance, out.covariance_j2000_rad2);
   const FilteredAttitude& filtered = attitude.filtered;
   out.filtered = filtered.valid;
   if (!filtered.valid) return;
   out.valid = true;
   out.rig_from_j2000 = quaternion(filtered.rig_from_j2000);
   put_matrix(filtered.covariance, out.covariance_rad2);
+  put_in_j2000(filtered.rig_from_j2000, filtered.covariance, out.covariance_j2000_rad2);
   out.rate_valid = true;
   out.rate_rad_s = vector(filtered.rate);
   put_matrix(filtered.rate_covariance, out.rate_covariance_rad2_s2);
@@ -254,13 +295,17 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
   const PoseSolution& solution = pose.solution;
   out.frame = pose.frame;
   out.time_ns = pose.time_ns;
-  out.valid = pose.valid;
+  out.valid = pose.position_valid;
+  out.rotation_valid = pose.rotation_valid;
   out.body = pose.body;
   set_text(out.body_name, body_name);
   out.state = same<omma_SolveState>(solution.status);
   out.rig_from_body = quaternion(solution.rig_from_body.rotation);
   out.position_m = vector(solution.rig_from_body.translation);
-  put_matrix(solution.covariance, out.covariance);
+  put_matrix(pose.integrity.rig.covariance, out.covariance);
+  out.rig_position_m = vector(solution.rig_from_body.inverse().translation);
+  put_matrix(pose.integrity.body.covariance, out.body_covariance);
+  fill(pose.integrity, out.integrity);
   out.chi2 = solution.chi2;
   out.residual_rms_rad = solution.residual_rms;
   out.targets_used = solution.pairs;

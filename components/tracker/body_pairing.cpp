@@ -9,7 +9,9 @@ void BodyPairing::predict(const RigCamera& camera, const BodyPrediction& body, s
   const Pose& rig_from_body = body.pose.rig_from_body;
   const Eigen::Matrix3d camera_from_rig = camera.rig_from_camera.rotation.toRotationMatrix().transpose();
   const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
+  const Eigen::Vector3d viewpoint = rig_from_body.inverse() * camera.rig_from_camera.translation;
   for (std::size_t i = 0; i < body.body->targets.size(); ++i) {
+    if (!faces(body.body->targets[i], viewpoint)) continue;
     const Eigen::Vector3d arm = rotation * body.body->targets[i].position;
     const Eigen::Vector3d gap = arm + rig_from_body.translation - camera.rig_from_camera.translation;
     const double range = gap.norm();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace omma {
 namespace {
@@ -63,6 +64,15 @@ double StarIdentification::ratio_to_accept(std::uint32_t hypothesis) const noexc
   return 1 / (parameters_.false_match_probability * part);
 }
 
+void StarIdentification::identify_near(const Eigen::Quaterniond& rig_from_j2000, double largest_angle,
+                                       std::span<const RigDot> dots, Identification& result) noexcept {
+  aided_ = true;
+  prior_j2000_from_rig_ = rig_from_j2000.conjugate().toRotationMatrix();
+  least_prior_trace_ = 1 + 2 * std::cos(std::min(largest_angle, std::numbers::pi));
+  identify(dots, result);
+  aided_ = false;
+}
+
 void StarIdentification::identify(std::span<const RigDot> dots, Identification& result) noexcept {
   result.status = IdentificationStatus::kTooFewDots;
   result.matches.clear();
@@ -84,7 +94,8 @@ void StarIdentification::identify(std::span<const RigDot> dots, Identification& 
     if (search(dots, pass, until, result)) return;
   }
   result.status = tried_ >= limit ? IdentificationStatus::kSearchCut : IdentificationStatus::kNotVerified;
-  if (parameters_.names_mirrored && mirrored(dots, result)) result.status = IdentificationStatus::kMirrored;
+  if (parameters_.names_mirrored && !aided_ && mirrored(dots, result))
+    result.status = IdentificationStatus::kMirrored;
 }
 
 bool StarIdentification::search(std::span<const RigDot> dots, const Pass& pass, double until,
@@ -121,12 +132,14 @@ bool StarIdentification::try_pair(std::span<const SearchDot> order, std::size_t 
       const std::uint16_t second = swapped ? pair.first : pair.second;
       if (first >= a.faintest || second >= b.faintest) continue;
       if (tried_ >= until) return false;
+      const Eigen::Matrix3d j2000_from_rig =
+          axes_of(stars[first].direction, stars[second].direction) * rig_axes.transpose();
+      // The trace of AᵀB is the sum of the products of their elements.
+      if (aided_ && j2000_from_rig.cwiseProduct(prior_j2000_from_rig_).sum() < least_prior_trace_) continue;
       if (!prepared) evidence_.rest_on(order, i, k);
       prepared = true;
       tried_ += 1;
       ++result.hypotheses;
-      const Eigen::Matrix3d j2000_from_rig =
-          axes_of(stars[first].direction, stars[second].direction) * rig_axes.transpose();
       const double accept = ratio_to_accept(result.hypotheses);
       const double ratio = evidence_.weigh(j2000_from_rig, first, second, accept);
       if (ratio >= accept && take(order, ratio, result)) return true;

@@ -66,6 +66,12 @@ class StarIdentification {
   /// @param dots  of all cameras, any order; sigma must include what the lens calibration does not know
   void identify(std::span<const RigDot> dots, Identification& result) noexcept;
 
+  /// Aided: the attitude is known to within an angle. Only hypotheses inside it are tried, so that fewer
+  /// stars suffice for the same bound. No mirror images.
+  /// @param largest_angle  between `prior` and the truth [rad]
+  void identify_near(const Eigen::Quaterniond& rig_from_j2000, double largest_angle,
+                     std::span<const RigDot> dots, Identification& result) noexcept;
+
   const StarPairs& pairs() const { return pairs_; }
 
  private:
@@ -90,6 +96,9 @@ class StarIdentification {
   SkyEvidence evidence_;
   StarMatching matching_;
   std::array<RigDot, limits::kDotsPerCamera> mirror_;
+  bool aided_ = false;
+  Eigen::Matrix3d prior_j2000_from_rig_ = Eigen::Matrix3d::Identity();
+  double least_prior_trace_ = -1;  // of the rotation between prior and hypothesis: 1 + 2 cos of the angle
   double tried_ = 0;  // hypotheses and the table entries looked at for them, in units of one hypothesis
 };
 

@@ -48,10 +48,15 @@ bool shares_dots(const DotFoursome& foursome, const TargetLabelling& labelling) 
 
 struct TargetIdentifier::Work {
   Work(const TargetBody& given, const TargetIdentifierOptions& with)
-      : body(given), options(with), patches(given, with.tilt_factor), verification(given, with.gate) {
+      : body(given),
+        options(with),
+        patches(given, with.tilt_factor),
+        verification(given, with.gate, with.least_part) {
     const double part = with.least_part * static_cast<double>(given.targets.size());
-    least_explained = std::max<std::size_t>(4, static_cast<std::size_t>(std::ceil(part)));
-    least_nearby = std::clamp<std::size_t>(least_explained, 4, 5);
+    // Of a body with faces a few may be all there is to see.
+    const bool has_faces = std::any_of(given.targets.begin(), given.targets.end(),
+                                       [](const Target& target) { return !target.normal.isZero(0); });
+    least_nearby = has_faces ? 4 : std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(part)), 4, 5);
   }
 
   void search(std::span<const RigDot> given, TargetIdentification& result) noexcept;
@@ -70,7 +75,7 @@ struct TargetIdentifier::Work {
   TargetVerification verification;
   DotPatches foursomes;
   std::span<const RigDot> dots;
-  std::size_t least_explained = 4, least_nearby = 4;
+  std::size_t least_nearby = 4;
   std::array<PatchLabels, kMostCandidates> candidates;
   StaticVector<Survivor, kMostSurvivors> survivors;
   TargetLabelling best, second, candidate;
@@ -150,7 +155,7 @@ void TargetIdentifier::Work::collect_survivors(const DotFoursome& foursome,
 void TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
   for (const Survivor& survivor : survivors) {
     ++result.verified;
-    if (!verification.complete(survivor.pose, least_explained, candidate) || !credible(candidate)) continue;
+    if (!verification.complete(survivor.pose, candidate) || !credible(candidate)) continue;
     if (has_best && same_labelling(candidate, best)) {
       if (log_odds(candidate, best) > 0) best = candidate;
     } else if (!has_best || log_odds(candidate, best) > 0) {
@@ -168,12 +173,11 @@ void TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
 bool TargetIdentifier::Work::credible(const TargetLabelling& labelling) const noexcept {
   const double freedom = 2.0 * static_cast<double>(labelling.pairs.size()) - 6;
   const bool fits = labelling.pose.chi2 <= freedom + kImprobable * std::sqrt(2 * freedom);
-  return labelling.pairs.size() >= least_explained &&
-         labelling.log_chance <= (fits ? options.largest_log_chance : kBeyondDoubt);
+  return labelling.log_chance <= (fits ? options.largest_log_chance : kBeyondDoubt);
 }
 
 void TargetIdentifier::Work::answer(TargetIdentification& result) noexcept {
-  verification.try_other_minimum(least_explained, best, candidate);
+  verification.try_other_minimum(best, candidate);
   if (credible(candidate) && log_odds(candidate, best) > 0) best = candidate;
   const bool ambiguous = has_second && log_odds(best, second) < kLabellingMargin;
   result.status =

@@ -36,13 +36,15 @@ double log_odds(const TargetLabelling& of, const TargetLabelling& against) noexc
   return 0.5 * (against.pose.chi2 - of.pose.chi2) - more * log_clutter;
 }
 
-TargetVerification::TargetVerification(const TargetBody& body, double gate) : gate_(gate) {
+TargetVerification::TargetVerification(const TargetBody& body, double gate, double least_part)
+    : gate_(gate), least_part_(least_part) {
   for (const Target& target : body.targets) {
-    targets_.push_back(target.position);
+    targets_.push_back(target);
+    has_faces_ = has_faces_ || !target.normal.isZero(0);
     centroid_ += target.position;
   }
   centroid_ /= static_cast<double>(std::max<std::size_t>(1, targets_.size()));
-  for (const Eigen::Vector3d& target : targets_) radius_ = std::max(radius_, (target - centroid_).norm());
+  for (const Target& target : targets_) radius_ = std::max(radius_, (target.position - centroid_).norm());
   for (std::size_t n = 1; n < log_factorial_.size(); ++n)
     log_factorial_[n] = log_factorial_[n - 1] + std::log(static_cast<double>(n));
   growing_.cull = CullRule::kNone;
@@ -107,10 +109,12 @@ std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noex
   const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
   const Eigen::Vector3d offset = rig_from_body.translation - patch_origin_;
   const Eigen::Matrix<double, 2, 3> across = plane_.transpose();
+  const Eigen::Vector3d viewpoint = rotation.transpose() * -offset;
   std::uint32_t taken = 0;
   pairs_.clear();
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const Eigen::Vector3d d = rotation * targets_[t] + offset;
+    if (has_faces_ && !faces(targets_[t], viewpoint)) continue;
+    const Eigen::Vector3d d = rotation * targets_[t].position + offset;
     const double depth = d.dot(middle_);
     if (!(depth > 0)) continue;
     const Eigen::Vector2d at = across * d / depth;
@@ -136,39 +140,51 @@ std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noex
   return pairs_.size();
 }
 
-bool TargetVerification::complete(const Pose& rig_from_body, std::size_t least,
-                                  TargetLabelling& labelling) noexcept {
+bool TargetVerification::complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept {
   if (explained_nearby(rig_from_body) < 4) return false;
   solve(rig_from_body, growing_, labelling.pose);
-  return grow(least, labelling);
+  return grow(labelling);
 }
 
-void TargetVerification::try_other_minimum(std::size_t least, const TargetLabelling& labelling,
+void TargetVerification::try_other_minimum(const TargetLabelling& labelling,
                                            TargetLabelling& other) noexcept {
   pairs_ = labelling.pairs;
   solve(labelling.pose.rig_from_body, growing_, other.pose);
   const CardShape shape = card_shape(sights_, {});
   if (shape.flat) {
     solve(mirrored_pose(shape, labelling.pose.rig_from_body), growing_, other.pose);
-    if (grow(least, other)) return;
+    if (grow(other)) return;
   }
   other = labelling;
 }
 
-bool TargetVerification::grow(std::size_t least, TargetLabelling& labelling) noexcept {
+std::size_t TargetVerification::least_explained(const Pose& rig_from_body) const noexcept {
+  std::size_t turned_here = targets_.size();
+  if (has_faces_) {
+    const Eigen::Vector3d viewpoint = rig_from_body.inverse() * patch_origin_;
+    turned_here = static_cast<std::size_t>(std::count_if(
+        targets_.begin(), targets_.end(), [&](const Target& target) { return faces(target, viewpoint); }));
+  }
+  const double part = std::ceil(least_part_ * static_cast<double>(turned_here));
+  return std::max<std::size_t>(4, static_cast<std::size_t>(part));
+}
+
+bool TargetVerification::grow(TargetLabelling& labelling) noexcept {
   for (int round = 0; round < kGrowthRounds; ++round) {
     if (labelling.pose.status != SolveStatus::kSolved && labelling.pose.status != SolveStatus::kIterationCap)
       return false;
     const std::size_t before = pairs_.size();
     match_everywhere(labelling.pose);
-    if (pairs_.size() < least) return false;
+    if (pairs_.size() < least_explained(labelling.pose.rig_from_body)) return false;
     if (round > 0 && pairs_.size() == before) break;
     solve(labelling.pose.rig_from_body, growing_, labelling.pose);
   }
   solve_and_cull(labelling);
   for (int misfits = 0; misfits < kMostMisfits && leave_out_misfit(labelling); ++misfits) {
   }
-  if (labelling.pose.pairs < least || labelling.pose.status == SolveStatus::kInconsistent) return false;
+  if (labelling.pose.pairs < least_explained(labelling.pose.rig_from_body) ||
+      labelling.pose.status == SolveStatus::kInconsistent)
+    return false;
   const Surroundings here = surroundings(labelling.pose);
   labelling.log_chance = log_chance(labelling.pose, here);
   const double density = std::max(here.dots - 3, 1.0) / here.area;
@@ -214,7 +230,7 @@ void TargetVerification::solve(const Pose& initial, const SolveOptions& options,
   sights_.clear();
   for (const TargetPair& pair : pairs_) {
     const RigDot& dot = dots_[pair.dot];
-    sights_.push_back({dot.origin, dot.ray, dot.whitener, targets_[pair.target]});
+    sights_.push_back({dot.origin, dot.ray, dot.whitener, targets_[pair.target].position});
   }
   solution = solve_pose(sights_, initial, options, {used_.data(), sights_.size()});
 }
@@ -224,8 +240,8 @@ TargetVerification::Region TargetVerification::region(const Pose& pose,
   Region seen;
   seen.direction = (pose * centroid_ - origin).normalized();
   double smallest = 1;
-  for (const Eigen::Vector3d& target : targets_)
-    smallest = std::min(smallest, seen.direction.dot((pose * target - origin).normalized()));
+  for (const Target& target : targets_)
+    smallest = std::min(smallest, seen.direction.dot((pose * target.position - origin).normalized()));
   seen.radius = std::acos(std::clamp(smallest, -1.0, 1.0));
   return seen;
 }
@@ -251,9 +267,11 @@ void TargetVerification::match_camera(const PoseSolution& pose, std::span<const 
   if (in_region_.empty()) return;
 
   const Eigen::Matrix3d rotation = pose.rig_from_body.rotation.toRotationMatrix();
+  const Eigen::Vector3d viewpoint = pose.rig_from_body.inverse() * origin;
   const std::size_t begin = pairs_.size();
   for (std::size_t t = 0; t < targets_.size(); ++t) {
-    const Eigen::Vector3d turned = rotation * targets_[t];
+    if (has_faces_ && !faces(targets_[t], viewpoint)) continue;
+    const Eigen::Vector3d turned = rotation * targets_[t].position;
     const Eigen::Vector3d d = turned + pose.rig_from_body.translation - origin;
     const double range2 = d.squaredNorm();
     const Eigen::Vector3d u = d / std::sqrt(range2);

@@ -31,7 +31,8 @@ bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept
 
 class TargetVerification {
  public:
-  TargetVerification(const TargetBody& body, double gate);
+  /// @param least_part  of the targets on faces turned to the camera that a labelling must explain
+  TargetVerification(const TargetBody& body, double gate, double least_part);
 
   void start(std::span<const RigDot> dots) noexcept { dots_ = dots; }
   /// @param near  dots around the patch, of the same camera
@@ -41,16 +42,17 @@ class TargetVerification {
   std::size_t explained_nearby(const Pose& rig_from_body) noexcept;
 
   /// Carries the pose to all dots of all cameras.
-  /// @return false where the pairs do not make a pose, or explain fewer than `least` targets
-  bool complete(const Pose& rig_from_body, std::size_t least, TargetLabelling& labelling) noexcept;
+  /// @return false where the pairs do not make a pose, or explain too few targets
+  bool complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept;
 
   /// A flat card's labelling begun in the wrong one of its two minima loses pairs there: `other` is grown
   /// anew from the mirror image of its pose; where that gives nothing, `other` is the labelling itself.
-  void try_other_minimum(std::size_t least, const TargetLabelling& labelling,
-                         TargetLabelling& other) noexcept;
+  void try_other_minimum(const TargetLabelling& labelling, TargetLabelling& other) noexcept;
 
  private:
-  bool grow(std::size_t least, TargetLabelling& labelling) noexcept;
+  bool grow(TargetLabelling& labelling) noexcept;
+  /// Targets that must be explained at a pose: a part of those whose faces are turned to the patch's camera.
+  std::size_t least_explained(const Pose& rig_from_body) const noexcept;
   /// Over pairs_, which are then those the solver kept.
   void solve_and_cull(TargetLabelling& labelling) noexcept;
   /// @return whether there was a pair without which the others fit far better
@@ -80,10 +82,11 @@ class TargetVerification {
   /// ln of the ways to choose k of so many.
   double log_choose(double of, std::size_t k) const noexcept;
 
-  std::vector<Eigen::Vector3d> targets_;
+  std::vector<Target> targets_;
+  bool has_faces_ = false;
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   double radius_ = 0;  ///< of the body about its centroid [m]
-  double gate_;
+  double gate_, least_part_;
   SolveOptions growing_, final_;
   std::array<double, limits::kTargetPairs + 1> log_factorial_{};
 

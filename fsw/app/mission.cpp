@@ -7,6 +7,7 @@
 #include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
+#include "components/estimation/calibration_error_file.hpp"
 #include "components/extractor/extractor_tuning.hpp"
 #include "components/geometry/rig_file.hpp"
 #include "components/tracker/tracker_tuning.hpp"
@@ -219,6 +220,12 @@ Mission read_mission(const std::filesystem::path& file) {
     mission.surveillance = read_surveillance(*surveillance);
   if (const auto attitude = root.table_if("attitude"))
     mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
+  IntegrityOptions integrity;
+  if (const auto table = root.table_if("integrity")) integrity = read_integrity(*table);
+  if (const auto table = root.table_if("calibration_error"))
+    integrity.calibration = read_calibration_error(*table);
+  mission.attitude.integrity = mission.pose.integrity = integrity;
+  mission.attitude.axes = mission.pose.axes = camera_axes(mission.rig);
   mission.imaging.period = 10;
   if (const auto imaging = root.table_if("imaging")) mission.imaging = read_imaging(*imaging, mission.rig);
   if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);

@@ -51,6 +51,11 @@ const char* name_of(omma_MotionMode mode) {
   return kNames[static_cast<std::size_t>(mode)];
 }
 
+const char* name_of(omma_IntegrityState state) {
+  static constexpr const char* kNames[] = {"none", "sound", "unchecked", "ALERT"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
 Eigen::Quaterniond eigen(const omma_Quaternion& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
 }
@@ -98,6 +103,25 @@ void add_cameras(Table& table, const omma_FrameSet& frame_set) {
   }
 }
 
+double length(const omma_Vector3& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+/// What contradicts the solution most.
+std::string suspicion(const omma_Integrity& integrity) {
+  return format(
+      "integrity        %s   chi2 by chance %.2g   dot %u:%u at %.1f sigma   camera %u by chance %.2g%s",
+      name_of(integrity.state), integrity.chi2_probability, integrity.suspect_dot_camera,
+      integrity.suspect_dot_entry, integrity.suspect_dot_sigma, integrity.suspect_camera,
+      integrity.suspect_camera_probability, integrity.cameras_checked ? "" : "   not all cameras checked");
+}
+
+LineStyle style_of(const omma_Integrity& integrity) {
+  return integrity.state == omma_INTEGRITY_SOUND       ? LineStyle::kGood
+         : integrity.state == omma_INTEGRITY_UNCHECKED ? LineStyle::kWarning
+                                                       : LineStyle::kBad;
+}
+
 void add_attitude(Table& table, const omma_Attitude& attitude) {
   const LineStyle style = attitude.valid ? LineStyle::kGood : LineStyle::kBad;
   table.add(TopicId::kAttitude, style,
@@ -116,6 +140,14 @@ void add_attitude(Table& table, const omma_Attitude& attitude) {
   table.add(TopicId::kAttitude, style,
             format("1-sigma          x %.2f  y %.2f  z %.2f arcsec", std::sqrt(covariance[0]) * kArcseconds,
                    std::sqrt(covariance[4]) * kArcseconds, std::sqrt(covariance[8]) * kArcseconds));
+  const omma_Integrity& integrity = attitude.integrity;
+  table.add(TopicId::kAttitude, style_of(integrity), suspicion(integrity));
+  table.add(
+      TopicId::kAttitude, style_of(integrity),
+      format("protection       x %.1f  y %.1f  z %.1f arcsec at %.0e   weakest axis %.1f arcsec 1-sigma",
+             integrity.protection_rad.x * kArcseconds, integrity.protection_rad.y * kArcseconds,
+             integrity.protection_rad.z * kArcseconds, integrity.risk,
+             integrity.weakest_rotation_sigma_rad * kArcseconds));
   if (!attitude.rate_valid) return;
   const omma_Vector3& rate = attitude.rate_rad_s;
   table.add(TopicId::kAttitude, style,
@@ -136,10 +168,19 @@ void add_pose(Table& table, const omma_RelativePose& pose) {
   const double* covariance = pose.covariance;
   auto sigma = [covariance](int i) { return std::sqrt(covariance[7 * i]); };
   table.add(TopicId::kRelativePose, style,
-            format("  position       x %+.4f  y %+.4f  z %+.4f m   range %.4f m", p.x, p.y, p.z,
-                   std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z)));
+            format("  position       x %+.4f  y %+.4f  z %+.4f m   range %.4f m", p.x, p.y, p.z, length(p)));
   table.add(TopicId::kRelativePose, style,
             format("  1-sigma        x %.4f  y %.4f  z %.4f m", sigma(3), sigma(4), sigma(5)));
+  const omma_Integrity& integrity = pose.integrity;
+  table.add(TopicId::kRelativePose, style_of(integrity), "  " + suspicion(integrity));
+  table.add(TopicId::kRelativePose, style_of(integrity),
+            format("  protection     x %.4f  y %.4f  z %.4f m   rotation %.3f deg   at %.0e",
+                   integrity.protection_m.x, integrity.protection_m.y, integrity.protection_m.z,
+                   length(integrity.protection_rad) * kDegrees, integrity.risk));
+  if (!pose.rotation_valid) {
+    table.add(TopicId::kRelativePose, LineStyle::kWarning, "  rotation not observable");
+    return;
+  }
   const YawPitchRoll angles = yaw_pitch_roll(eigen(pose.rig_from_body));
   table.add(TopicId::kRelativePose, style,
             format("  rig_from_body  yaw %+.3f  pitch %+.3f  roll %+.3f deg", angles.yaw * kDegrees,

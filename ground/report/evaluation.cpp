@@ -109,6 +109,15 @@ AttitudeError attitude_error(const Judge& judge, const omma_Attitude& sample) {
   return point;
 }
 
+void check_protection(const Eigen::Vector3d& error, const omma_Vector3& level, ProtectionCheck& check) {
+  const Eigen::Vector3d levels(level.x, level.y, level.z);
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(levels[k])) continue;
+    ++check.axes;
+    check.beyond += std::abs(error[k]) > levels[k] ? 1 : 0;
+  }
+}
+
 PoseError pose_error(const Judge& judge, const TargetBody& body, const Pose& rig_from_body,
                      const omma_RelativePose& sample) {
   static const SpotChoice kAll = [](const TruthSpot&) { return true; };
@@ -244,7 +253,12 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
   };
   for (const omma_Attitude& sample : log.attitudes) {
     const Judge& judge = judge_of(sample.frame);
-    if (sample.valid) evaluation.attitude.points.push_back(attitude_error(judge, sample));
+    if (!sample.valid) continue;
+    AttitudeEvaluation& attitude = evaluation.attitude;
+    attitude.points.push_back(attitude_error(judge, sample));
+    if (sample.filtered || sample.integrity.state == omma_INTEGRITY_NONE) continue;
+    check_protection(attitude.points.back().error, sample.integrity.protection_rad, attitude.protection);
+    attitude.protection.alerts += sample.integrity.state == omma_INTEGRITY_ALERT ? 1 : 0;
   }
   for (const omma_RelativePose& sample : log.poses) {
     const Judge& judge = judge_of(sample.frame);
@@ -252,9 +266,14 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
       throw InputError(log_path, 0, "relative_pose", std::to_string(mission.bodies.size()) + " bodies",
                        "body " + std::to_string(sample.body));
     PoseEvaluation& pose = evaluation.poses[sample.body];
-    for (const TruthBody& body : judge.truth.bodies)
-      if (sample.valid && body.name == pose.body)
-        pose.points.push_back(pose_error(judge, mission.bodies[sample.body], body.rig_from_body, sample));
+    for (const TruthBody& body : judge.truth.bodies) {
+      if (!sample.valid || sample.state == omma_SOLVE_UNOBSERVABLE || body.name != pose.body) continue;
+      pose.points.push_back(pose_error(judge, mission.bodies[sample.body], body.rig_from_body, sample));
+      const Vector6d& error = pose.points.back().error;
+      check_protection(error.head<3>(), sample.integrity.protection_rad, pose.protection);
+      check_protection(error.tail<3>(), sample.integrity.protection_m, pose.protection);
+      pose.protection.alerts += sample.integrity.state == omma_INTEGRITY_ALERT ? 1 : 0;
+    }
   }
   sum_up(evaluation.attitude);
   for (PoseEvaluation& pose : evaluation.poses) sum_up(pose);

@@ -27,6 +27,13 @@ struct AttitudeError {
   double nees = 0;
 };
 
+/// Errors against the protection levels they were published with, axis by axis.
+struct ProtectionCheck {
+  std::size_t axes = 0;    ///< that had a level
+  std::size_t beyond = 0;  ///< whose error is larger
+  std::size_t alerts = 0;  ///< solutions published with an alert
+};
+
 struct AttitudeEvaluation {
   std::vector<AttitudeError> points;                         ///< solved frame sets
   std::size_t frames = 0;                                    ///< of the truth
@@ -34,6 +41,7 @@ struct AttitudeEvaluation {
   Eigen::Vector3d bound_rms = Eigen::Vector3d::Zero();       ///< [rad]
   Eigen::Vector3d used_bound_rms = Eigen::Vector3d::Zero();  ///< [rad]
   MeanNees nees;
+  ProtectionCheck protection;
 };
 
 struct PoseError {
@@ -66,6 +74,7 @@ struct PoseEvaluation {
   OverBound position_part;  ///< of the range
   OverBound rotation;       ///< [rad]
   MeanNees nees;
+  ProtectionCheck protection;
 };
 
 /// Spots paired, against where the truth has the star or target of that name.

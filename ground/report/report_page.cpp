@@ -15,6 +15,12 @@ constexpr double kArcsec = std::numbers::pi / (180.0 * 3600.0);
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::array kAxes{"x", "y", "z"};
 
+std::string protection_figure(const ProtectionCheck& check, const std::string& of) {
+  return figure(format("%zu / %zu", check.beyond, check.axes),
+                format("errors of %s beyond their protection level, axis by axis; %zu alerts", of.c_str(),
+                       check.alerts));
+}
+
 std::string attitude_figures(const AttitudeEvaluation& attitude) {
   const double rms = attitude.rms.norm();
   const double bound = attitude.bound_rms.norm();
@@ -25,7 +31,8 @@ std::string attitude_figures(const AttitudeEvaluation& attitude) {
          figure(format("%zu / %zu", attitude.points.size(), attitude.frames), "frame sets with an attitude") +
          figure(format("%.2f", attitude.nees.mean),
                 format("attitude NEES; honest covariances give 3 (%.2f to %.2f)", attitude.nees.low,
-                       attitude.nees.high));
+                       attitude.nees.high)) +
+         protection_figure(attitude.protection, "the attitude");
 }
 
 std::string pose_figures(const PoseEvaluation& pose) {
@@ -37,7 +44,8 @@ std::string pose_figures(const PoseEvaluation& pose) {
              format("rotation rms of %s: %.2f times the bound", pose.body.c_str(), pose.rotation.ratio())) +
          figure(format("%zu / %zu", pose.points.size(), pose.frames),
                 format("frame sets with a pose; NEES %.2f where 6 is right (%.2f to %.2f)", pose.nees.mean,
-                       pose.nees.low, pose.nees.high));
+                       pose.nees.low, pose.nees.high)) +
+         protection_figure(pose.protection, pose.body);
 }
 
 std::string attitude_charts(const Evaluation& evaluation) {
@@ -108,6 +116,10 @@ std::string pictures_html(const std::vector<ReportPicture>& pictures) {
   return html;
 }
 
+nlohmann::ordered_json protection_json(const ProtectionCheck& check) {
+  return {{"axes", check.axes}, {"beyond", check.beyond}, {"alerts", check.alerts}};
+}
+
 }  // namespace
 
 std::string report_page(const ReportContent& content) {
@@ -154,7 +166,8 @@ std::string report_json(const ReportContent& content) {
                       {"bound_rms_arcsec", axes(a.bound_rms, kArcsec)},
                       {"used_bound_rms_arcsec", axes(a.used_bound_rms, kArcsec)},
                       {"rms_over_bound", a.bound_rms.norm() > 0 ? a.rms.norm() / a.bound_rms.norm() : 0},
-                      {"nees", {{"mean", a.nees.mean}, {"low", a.nees.low}, {"high", a.nees.high}}}};
+                      {"nees", {{"mean", a.nees.mean}, {"low", a.nees.low}, {"high", a.nees.high}}},
+                      {"protection", protection_json(a.protection)}};
   json["poses"] = nlohmann::ordered_json::array();
   for (const PoseEvaluation& p : e.poses) {
     json["poses"].push_back({{"body", p.body},
@@ -164,7 +177,8 @@ std::string report_json(const ReportContent& content) {
                              {"position_over_bound", p.position_part.ratio()},
                              {"rotation_rms_deg", p.rotation.rms / kDegree},
                              {"rotation_over_bound", p.rotation.ratio()},
-                             {"nees", {{"mean", p.nees.mean}, {"low", p.nees.low}, {"high", p.nees.high}}}});
+                             {"nees", {{"mean", p.nees.mean}, {"low", p.nees.low}, {"high", p.nees.high}}},
+                             {"protection", protection_json(p.protection)}});
   }
   json["pairings"] = {{"right", e.pairs.right}, {"wrong", e.pairs.wrong}, {"unknown", e.pairs.unknown}};
   json["time_ms"] = nlohmann::ordered_json::object();
@@ -188,6 +202,14 @@ std::string report_text(const ReportContent& content) {
         p.body.c_str(), p.points.size(), p.frames, 100 * p.position_part.rms, p.position_part.ratio(),
         p.rotation.rms / kDegree, p.rotation.ratio(), p.nees.mean);
   }
+  ProtectionCheck all = a.protection;
+  for (const PoseEvaluation& p : content.evaluation.poses) {
+    all.axes += p.protection.axes;
+    all.beyond += p.protection.beyond;
+    all.alerts += p.protection.alerts;
+  }
+  text += format("integrity  %zu of %zu errors beyond their protection level, %zu alerts\n", all.beyond,
+                 all.axes, all.alerts);
   const PairCheck& pairs = content.evaluation.pairs;
   text += format("pairings   %zu right, %zu wrong, %zu too faint to judge\n", pairs.right, pairs.wrong,
                  pairs.unknown);

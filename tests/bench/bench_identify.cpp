@@ -21,6 +21,7 @@ struct Case {
   Rig rig;
   SkyProblemOptions options;
   double resolution_deg;  // stars closer than this are one dot
+  double aided_deg = 0;   // the attitude is known to within this
 };
 
 // @return wrong answers
@@ -29,7 +30,7 @@ int run(const Case& c, int trials) {
       std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, c.resolution_deg * kDegree});
   const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig));
   const auto answer = std::make_unique<Identification>();
-  std::mt19937_64 random(2010);
+  std::mt19937_64 random(2010), aside(7);
   std::vector<double> times;
   std::vector<double> hypotheses;
   std::vector<double> dots;
@@ -37,9 +38,16 @@ int run(const Case& c, int trials) {
   int wrong = 0;
   for (int trial = 0; trial < trials; ++trial) {
     const SkyProblem problem = random_sky(c.rig, catalogue->stars(), c.options, random);
+    std::normal_distribution<double> gauss;
+    const Eigen::Vector3d axis(gauss(aside), gauss(aside), gauss(aside));
+    const Eigen::Quaterniond prior =
+        rotation_exp(0.7 * c.aided_deg * kDegree * axis.normalized()) * problem.truth;
     times.push_back(cpu_microseconds([&] {
       const RealTimeScope scope;
-      identification->identify(problem.dots, *answer);
+      if (c.aided_deg > 0)
+        identification->identify_near(prior, c.aided_deg * kDegree, problem.dots, *answer);
+      else
+        identification->identify(problem.dots, *answer);
     }));
     const SkyVerdict verdict = judge(problem, *answer);
     right += verdict == SkyVerdict::kRight ? 1 : 0;
@@ -109,6 +117,11 @@ int bench_identify(int argc, char** argv) {
        pinhole_rig(10),
        {.magnitude_limit = 6.5F, .noise_px = 0.2},
        0.02},
+      {"1 x 10 deg, known to 5 deg, V<6.5, 0.2 px",
+       pinhole_rig(10),
+       {.magnitude_limit = 6.5F, .noise_px = 0.2},
+       0.02,
+       5},
       {"3 x 122 deg, half the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.5}, 0.25},
       {"3 x 122 deg, 300 false on the sphere, 0.2 px",
        three,

@@ -85,6 +85,23 @@ int bench_target_identification(int argc, char** argv) {
   options.solid = true;
   table("solid body, clutter over the image", options, trials);
   options.solid = false;
+  options.faces = true;
+  std::printf("\n");
+  for (const int leds : {5, 6, 10}) {
+    for (const double hidden : {0.0, 0.3}) {
+      for (const double clutter : {0.0, 0.5}) {
+        options.targets = leds;
+        options.hidden = hidden;
+        options.clutter = clutter;
+        char name[80];
+        std::snprintf(name, sizeof name, "box, %d LEDs a face, %.0f %% hidden, %.0f %% clutter", leds,
+                      100 * hidden, 100 * clutter);
+        run(name, options, trials);
+      }
+    }
+  }
+  options.faces = false;
+  options.hidden = 0;
   options.clutter = 0.5;
   options.body_present = false;
   std::printf("\n");

@@ -33,7 +33,31 @@ class Draw {
   std::normal_distribution<double> gauss_;
 };
 
+/// LEDs on the six faces of a cube as wide as the card.
+TargetBody random_box(const CardProblemOptions& options, Draw& draw) {
+  TargetBody body;
+  for (int face = 0; face < 6; ++face) {
+    const Eigen::Vector3d normal = (face % 2 == 0 ? 1 : -1) * Eigen::Vector3d::Unit(face / 2);
+    const Eigen::Matrix<double, 3, 2> plane = tangent_basis(normal);
+    for (int placed = 0; placed < options.targets;) {
+      const double x = draw.uniform(-0.42, 0.42) * kWidth, y = draw.uniform(-0.42, 0.42) * kWidth;
+      Target target;
+      target.normal = normal;
+      target.position = 0.5 * kWidth * normal + plane * Eigen::Vector2d(x, y);
+      target.group = face;
+      const bool free = std::all_of(body.targets.begin(), body.targets.end(), [&](const Target& other) {
+        return (other.position - target.position).norm() > kLeastSpacing * kHeight;
+      });
+      if (!free) continue;
+      body.targets.push_back(target);
+      ++placed;
+    }
+  }
+  return body;
+}
+
 TargetBody random_body(const CardProblemOptions& options, Draw& draw) {
+  if (options.faces) return random_box(options, draw);
   TargetBody body;
   double spacing = kLeastSpacing * kHeight;
   for (int tries = 0; static_cast<int>(body.targets.size()) < options.targets; ++tries) {
@@ -74,6 +98,7 @@ std::vector<SeenPixel> see_targets(const CardProblem& problem, const RigCamera& 
   std::vector<SeenPixel> seen;
   const Pose camera_from_body = camera.rig_from_camera.inverse() * problem.truth;
   for (std::size_t t = 0; t < problem.body.targets.size(); ++t) {
+    if (!faces(problem.body.targets[t], camera_from_body.inverse().translation)) continue;
     Eigen::Vector2d pixel;
     const Eigen::Vector3d d = camera_from_body * problem.body.targets[t].position;
     if (camera.lens.project(d.normalized(), pixel)) seen.push_back({pixel, static_cast<int>(t)});
@@ -125,7 +150,8 @@ CardProblem make_card_problem(const CardProblemOptions& options, std::uint64_t s
   problem.truth.rotation = rotation_exp(tilt_axis * tilt) *
                            Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), -sight) *
                            rotation_exp(Eigen::Vector3d(0, 0, roll));
-  if (options.solid) problem.truth.rotation = rotation_exp(draw.direction() * draw.uniform(0, 3.1));
+  if (options.solid || options.faces)
+    problem.truth.rotation = rotation_exp(draw.direction() * draw.uniform(0, 3.1));
   problem.truth.translation = sight * options.range;
 
   for (std::size_t k = 0; k < cameras.size(); ++k) {

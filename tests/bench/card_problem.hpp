@@ -14,6 +14,7 @@ struct CardProblemOptions {
   int targets = 12;
   int cameras = 1;               ///< 2: the second 0.2 m beside the first, turned by 40°
   bool solid = false;            ///< targets in a box as deep as the card is wide, not on a card
+  bool faces = false;            ///< a box of six faces, `targets` LEDs on each, hidden from behind
   double hidden = 0;             ///< part of the targets not seen
   double clutter = 0;            ///< part of the dots seen that are no targets
   bool clutter_on_card = false;  ///< false: over the whole image; true: in the card's own surroundings

@@ -49,7 +49,8 @@ TEST(TargetFile, WrongEntriesAreNamedWithTheirLine) {
               HasSubstr("card.tsv:2: group: expected a whole number"));
   EXPECT_THAT(error_of(good + "T02\t0\t0.1\t0\t1\t7\n"), HasSubstr("card.tsv:2: type"));
   EXPECT_THAT(error_of(good + "T02 0 0.1 0 1 1\n"),
-              HasSubstr("card.tsv:2: target: expected 6 fields between tabs: id x y z group type, found 1"));
+              HasSubstr("card.tsv:2: target: expected 6 fields between tabs: id x y z group type (or 9, with "
+                        "a normal nx ny nz), found 1"));
   EXPECT_THAT(error_of(good + "T02\t0\t0.1\t0\t1\n"), HasSubstr("found 5"));
   EXPECT_THAT(error_of(std::string(40, 'T') + "\t0\t0.1\t0\t1\t1\n"), HasSubstr("limits::kNameLength"));
   EXPECT_THAT(error_of("id\tx\ty\tz\tgroup\ttype\n"),
@@ -63,6 +64,19 @@ TEST(TargetFile, MoreTargetsThanTheLimitAreRefusedByItsName) {
     text += "T" + std::to_string(i) + "\t0\t0\t0\t1\t1\n";
   EXPECT_THAT(error_of(text),
               HasSubstr("card.tsv:65: targets: expected at most 64 (limits::kTargetsPerBody)"));
+}
+
+TEST(TargetFile, FacesMayHaveNormals) {
+  const TargetBody body = targets_from_text("A\t0\t0\t1\t1\t1\t0\t0\t2\nB\t0\t0\t0\t1\t1\n", "box.tsv");
+  EXPECT_EQ(body.targets[0].normal, Eigen::Vector3d(0, 0, 1));
+  EXPECT_TRUE(faces(body.targets[0], {0, 0, 3}));
+  EXPECT_FALSE(faces(body.targets[0], {0, 0, -3}));
+  EXPECT_FALSE(faces(body.targets[0], {50, 0, 2}));  // grazing
+  EXPECT_TRUE(faces(body.targets[1], {0, 0, -3}));   // no normal: from all sides
+  EXPECT_THAT(error_of("A\t0\t0\t1\t1\t1\t0\t0\t0\n"),
+              HasSubstr("card.tsv:1: nx: expected a normal that is not zero"));
+  EXPECT_THAT(error_of("A\t0\t0\t1\t1\t1\t0\t0\tup\n"),
+              HasSubstr("card.tsv:1: nz: expected a finite number"));
 }
 
 TEST(TargetFile, MissingFileIsNamed) {

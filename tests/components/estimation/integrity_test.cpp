@@ -207,5 +207,27 @@ TEST(Integrity, OneCameraCannotCheckItself) {
   EXPECT_FALSE(integrity_of(c).cameras_checked);
 }
 
+TEST(Integrity, FarFrontalCardKeepsItsPositionAndDoesNotClaimItsRotation) {
+  RigProblemOptions far = card(8);
+  far.range = 40;
+  far.max_tilt_deg = 2;
+  far.prior_position = 0.2;
+  far.sigma_deg = 0.005;
+  int claimed = 0, positions = 0;
+  double nees = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const IntegrityProblem problem = card_integrity_problem(far, seed);
+    const PoseSolution solution = solve_pose(problem.sights, problem.prior, SolveOptions{}, {});
+    claimed += solution.rotation_observable && !solution.ambiguous ? 1 : 0;
+    if (!solution.position_observable) continue;
+    ++positions;
+    const Eigen::Vector3d error = problem.truth.translation - solution.rig_from_body.translation;
+    nees += error.dot(Eigen::Matrix3d(solution.covariance.bottomRightCorner<3, 3>()).ldlt().solve(error));
+  }
+  EXPECT_LE(claimed, 1);
+  EXPECT_GE(positions, 45);
+  EXPECT_LT(nees / positions, 6);  // 3 due
+}
+
 }  // namespace
 }  // namespace omma

@@ -193,13 +193,44 @@ TEST_F(Samples, MatricesAreRowAfterRow) {
   PoseEstimate pose;
   pose.valid = true;
   for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column) pose.solution.covariance(row, column) = 10 * row + column;
+    for (int column = 0; column < 6; ++column) pose.integrity.rig.covariance(row, column) = 10 * row + column;
   omma_RelativePose out{};
   fill(pose, "card", out);
   EXPECT_EQ(out.covariance[1], 1.0);
   EXPECT_EQ(out.covariance[6], 10.0);
   EXPECT_EQ(out.covariance[35], 55.0);
   EXPECT_STREQ(out.body_name, "card");
+}
+
+TEST_F(Samples, PositionMayBeValidWhereTheRotationIsNot) {
+  PoseEstimate pose;
+  pose.position_valid = true;
+  pose.solution.rig_from_body.translation = {0, 0, 40};
+  pose.integrity.state = IntegrityState::kSound;
+  pose.integrity.rig.protection_level << 1, 2, 3, 4, 5, 6;
+  pose.integrity.suspect_dot = {2, 17};
+  omma_RelativePose out{};
+  fill(pose, "card", out);
+  EXPECT_TRUE(out.valid);
+  EXPECT_FALSE(out.rotation_valid);
+  EXPECT_EQ(out.rig_position_m.z, -40);
+  EXPECT_EQ(out.integrity.state, omma_INTEGRITY_SOUND);
+  EXPECT_EQ(out.integrity.protection_rad.z, 3);
+  EXPECT_EQ(out.integrity.protection_m.x, 4);
+  EXPECT_EQ(out.integrity.suspect_dot_camera, 2);
+  EXPECT_EQ(out.integrity.suspect_dot_entry, 17);
+}
+
+TEST_F(Samples, AttitudesCovarianceIsGivenInBothFrames) {
+  AttitudeEstimate attitude;
+  attitude.valid = true;
+  attitude.solution.rig_from_j2000 = rotation_exp({0, 0, M_PI / 2});  // x of J2000 is y of the rig
+  attitude.integrity.rig.covariance(1, 1) = 4;
+  omma_Attitude out{};
+  fill(attitude, out);
+  EXPECT_EQ(out.covariance_rad2[4], 4);
+  EXPECT_NEAR(out.covariance_j2000_rad2[0], 4, 1e-12);
+  EXPECT_NEAR(out.covariance_j2000_rad2[4], 0, 1e-12);
 }
 
 TEST(SetText, IsCutToWhatFits) {

@@ -97,7 +97,7 @@ class VisionChain final : public Component {
     poses->bodies.resize(1);
     poses->bodies[0].frame = n;
     poses->bodies[0].time_ns = time;
-    poses->bodies[0].valid = n % 2 == 0;
+    poses->bodies[0].valid = poses->bodies[0].position_valid = n % 2 == 0;
     image->valid = n % 3 == 0;
     image->frame = n;
     image->width = 64;

@@ -83,6 +83,26 @@ TEST(StarIdentification, HalfTheDotsMayBeFalse) {
   EXPECT_EQ(count.wrong, 0);
 }
 
+TEST(StarIdentification, AidedNeedsFewerStarsAndBelievesNoOtherAttitude) {
+  Sky s(pinhole_rig(10), 0.02);
+  std::mt19937_64 random(3);
+  int unaided = 0, aided = 0;
+  for (int trial = 0; trial < 150; ++trial) {
+    const SkyProblem problem =
+        random_sky(s.rig, s.catalogue->stars(), {.magnitude_limit = 5.5F, .noise_px = 0.2}, random);
+    s.identification->identify(problem.dots, *s.answer);
+    unaided += judge(problem, *s.answer) == SkyVerdict::kRight ? 1 : 0;
+    const Eigen::Quaterniond near = rotation_exp({0.03, -0.02, 0.04}) * problem.truth;
+    s.identification->identify_near(near, 5 * kDegree, problem.dots, *s.answer);
+    aided += judge(problem, *s.answer) == SkyVerdict::kRight ? 1 : 0;
+    EXPECT_NE(judge(problem, *s.answer), SkyVerdict::kWrong);
+    const Eigen::Quaterniond elsewhere = rotation_exp({0.5, 0, 0}) * problem.truth;
+    s.identification->identify_near(elsewhere, 5 * kDegree, problem.dots, *s.answer);
+    EXPECT_NE(s.answer->status, IdentificationStatus::kIdentified);
+  }
+  EXPECT_GT(aided, unaided + 5);
+}
+
 TEST(StarIdentification, BrightnessMayMislead) {
   Sky s(equidistant_rig(1, 122));
   const auto count = s.solve({.noise_px = 0.2, .magnitude_scatter = 1.5, .missing_fraction = 0.2}, 100, 8);

@@ -104,6 +104,21 @@ TEST(TargetIdentification, ClutterAloneGivesNoAnswer) {
   }
 }
 
+// Thirty-six or sixty lights in all, of which those of one to three faces show.
+TEST(TargetIdentification, ABoxIsFoundByWhicheverFacesShow) {
+  CardProblemOptions options;
+  options.faces = true;
+  for (const int lights : {6, 10}) {
+    for (const double clutter : {0.0, 0.5}) {
+      options.targets = lights;
+      options.clutter = clutter;
+      const Score found = score(options, 100);
+      EXPECT_GE(found.right, lights == 6 ? 94 : 98) << lights << " a face, clutter " << clutter;
+      EXPECT_EQ(found.wrong, 0) << lights << " a face, clutter " << clutter;
+    }
+  }
+}
+
 TEST(TargetIdentification, TwoCamerasShareOnePose) {
   CardProblemOptions options;
   options.cameras = 2;

@@ -208,6 +208,26 @@ TEST_F(MissionFile, WithSurveillanceThatCannotBeIsRefused) {
   EXPECT_THAT(message(), HasSubstr("surveillance.radar: expected "));
 }
 
+TEST_F(MissionFile, SaysHowWrongTheCalibrationMayBe) {
+  replace("demo.toml", "[tracker]",
+          "[calibration_error]\nlens_scale = 2e-4\nsurvey_m = 1e-4\n\n[integrity]\nrisk = 1e-6\n\n[tracker]");
+  const Mission mission = read_mission(file());
+  EXPECT_EQ(mission.attitude.integrity.calibration.lens_scale, 2e-4);
+  EXPECT_EQ(mission.pose.integrity.calibration.survey, 1e-4);
+  EXPECT_EQ(mission.pose.integrity.risk, 1e-6);
+  EXPECT_NEAR(mission.pose.axes[1].z(), -1.0 / 3, 1e-6);  // cam0 of the dissertation's rig
+}
+
+TEST_F(MissionFile, WithANegativeCalibrationErrorIsRefused) {
+  replace("demo.toml", "[tracker]", "[calibration_error]\ncamera_rotation_deg = -0.1\n\n[tracker]");
+  EXPECT_THAT(message(), AllOf(HasSubstr("demo.toml"), HasSubstr("camera_rotation_deg"), HasSubstr("-0.1")));
+}
+
+TEST_F(MissionFile, WithAnIntegrityRiskOfNothingIsRefused) {
+  replace("demo.toml", "[tracker]", "[integrity]\nrisk = 0\n\n[tracker]");
+  EXPECT_THAT(message(), AllOf(HasSubstr("demo.toml"), HasSubstr("risk")));
+}
+
 TEST_F(MissionFile, ThatIsMissingIsNamed) {
   std::filesystem::remove(file());
   EXPECT_THAT(message(), HasSubstr("demo.toml: "));

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/blackframe/blackframe.hpp"
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/cameras/cameras.hpp"
 #include "ground/capture/capture.hpp"
@@ -16,6 +17,7 @@
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
 #include "ground/feed/feed.hpp"
+#include "ground/mask/mask.hpp"
 #include "ground/monitor/monitor.hpp"
 #include "ground/record/record.hpp"
 #include "ground/report/report.hpp"
@@ -47,6 +49,8 @@ int main(int argc, char** argv) {
   omma::ground::add_experiment(app, context);
   omma::ground::add_stars(app, context);
   omma::ground::add_dots(app, context);
+  omma::ground::add_blackframe(app, context);
+  omma::ground::add_mask(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -6,31 +6,12 @@
 #include "components/catalogue/observer.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/geometry/rig_file.hpp"
+#include "fsw/app/camera_tables.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
 
 namespace omma {
 namespace {
-
-ExtractorParameters read_extractor(const TomlTable& table) {
-  ExtractorParameters parameters;
-  parameters.threshold = static_cast<float>(table.number("threshold", {1, 100}, parameters.threshold));
-  parameters.gain = static_cast<float>(table.number("gain_e_per_level", {0, 1e6}, parameters.gain));
-  parameters.black_level =
-      static_cast<float>(table.number("black_level", {0, 65535}, parameters.black_level));
-  const std::string polarity = table.text("polarity", "bright");
-  if (polarity == "bright") {
-    parameters.polarity = DotPolarity::kBright;
-  } else if (polarity == "dark") {
-    parameters.polarity = DotPolarity::kDark;
-  } else if (polarity == "both") {
-    parameters.polarity = DotPolarity::kBoth;
-  } else {
-    throw table.error("polarity", "\"bright\", \"dark\" or \"both\"", polarity);
-  }
-  table.refuse_unknown_keys();
-  return parameters;
-}
 
 void read_driver(const TomlTable& table, const Lens& lens, double frame_rate_hz, CameraMission& camera) {
   camera.driver = table.text("driver");
@@ -63,8 +44,14 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, d
     seen[at] = true;
     CameraMission& camera = cameras[at];
     camera.driver = table.text("driver");
-    read_driver(table, rig.cameras[at].lens, frame_rate_hz, camera);
-    if (const auto extractor = table.table_if("extractor")) camera.extractor = read_extractor(*extractor);
+    const Lens& lens = rig.cameras[at].lens;
+    read_driver(table, lens, frame_rate_hz, camera);
+    camera.dots.width = lens.width();
+    camera.dots.height = lens.height();
+    camera.dots.parameters = read_extractor(table);
+    read_sensor(table, lens, camera.dots);
+    read_mask(table, lens, camera.dots);
+    camera.exposure = read_exposure(table);
     table.refuse_unknown_keys();
   }
   for (std::size_t c = 0; c < seen.size(); ++c) {

@@ -28,8 +28,8 @@ constexpr auto joined(const std::array<EventDescriptor, kCounts>&... parts) {
 }
 
 /// Every event this program can raise.
-inline constexpr auto kEvents =
-    joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, telemetry::kLatencyEvents);
+inline constexpr auto kEvents = joined(kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents,
+                                       kExposureEvents, telemetry::kLatencyEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// One JSON object.

@@ -25,11 +25,20 @@ std::uint32_t beats_per_second(double rate_hz) {
 
 std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
   std::vector<ExtractorCamera> cameras;
-  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
-    const Lens& lens = mission.rig.cameras[c].lens;
-    cameras.push_back({lens.width(), lens.height(), mission.cameras[c].extractor});
-  }
+  for (const CameraMission& camera : mission.cameras) cameras.push_back(camera.dots);
   return cameras;
+}
+
+std::vector<ExposureParameters> exposure_parameters(const Mission& mission) {
+  std::vector<ExposureParameters> parameters;
+  for (const CameraMission& camera : mission.cameras) parameters.push_back(camera.exposure);
+  return parameters;
+}
+
+std::vector<PixelMask> masks(const Mission& mission) {
+  std::vector<PixelMask> all;
+  for (const CameraMission& camera : mission.cameras) all.push_back(camera.dots.mask);
+  return all;
 }
 
 ImagingParameters imaging_parameters(const Mission& mission) {
@@ -60,8 +69,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       drivers_(mission_, options),
       sync_trigger(nullptr),
       cameras(drivers_.pointers(), events),
+      exposure(drivers_.pointers(), exposure_parameters(mission_), events),
       extractor(extractor_cameras(mission_), pool_),
-      tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
+      tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies, masks(mission_)),
       attitude(mission_.attitude),
       pose(mission_.pose),
       imaging(imaging_parameters(mission_), mission_.rig),
@@ -76,6 +86,7 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
 
 void Topology::connect() {
   cameras.trigger.bind(sync_trigger.trigger);
+  exposure.frames.bind(cameras.frames);
   extractor.frames.bind(cameras.frames);
   tracker.dots.bind(extractor.dots);
   tracker.attitude.bind(attitude.estimate);
@@ -104,6 +115,7 @@ RateGroupTable Topology::table() {
                       .priority = kVisionPriority,
                       .components = {{sync_trigger, microseconds(100)},
                                      {cameras, microseconds(2000)},
+                                     {exposure, microseconds(500)},
                                      {extractor, microseconds(10000), {}, pool_.workers()},
                                      {tracker, microseconds(15000)},
                                      {attitude, microseconds(2000)},

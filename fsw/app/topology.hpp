@@ -8,6 +8,7 @@
 #include "components/attitude/attitude.hpp"
 #include "components/camera/cameras.hpp"
 #include "components/catalogue/star_catalogue.hpp"
+#include "components/exposure/exposure.hpp"
 #include "components/extractor/extractor.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
@@ -58,6 +59,7 @@ class Topology {
   // In the order of the data.
   SyncTrigger sync_trigger;
   Cameras cameras;
+  Exposure exposure;
   Extractor extractor;
   Tracker tracker;
   Attitude attitude;

@@ -4,12 +4,14 @@
 #include <exception>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/blackframe/blackframe.hpp"
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/cameras/cameras.hpp"
 #include "ground/capture/capture.hpp"
 #include "ground/card/card.hpp"
 #include "ground/command.hpp"
 #include "ground/compare/compare.hpp"
+#include "ground/compare_motion/compare_motion.hpp"
 #include "ground/composite/composite.hpp"
 #include "ground/design/design.hpp"
 #include "ground/design/predict.hpp"
@@ -18,8 +20,8 @@
 #include "ground/export/export.hpp"
 #include "ground/feed/feed.hpp"
 #include "ground/images/images.hpp"
+#include "ground/mask/mask.hpp"
 #include "ground/monitor/monitor.hpp"
-#include "ground/compare_motion/compare_motion.hpp"
 #include "ground/motion/motion.hpp"
 #include "ground/objects/objects.hpp"
 #include "ground/record/record.hpp"
@@ -60,6 +62,8 @@ int main(int argc, char** argv) {
   omma::ground::add_servo_board(app, context);
   omma::ground::add_stars(app, context);
   omma::ground::add_dots(app, context);
+  omma::ground::add_blackframe(app, context);
+  omma::ground::add_mask(app, context);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

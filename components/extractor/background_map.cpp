@@ -48,6 +48,8 @@ OMMA_CLONES int count_not_above(const CellSamples<std::uint16_t>& samples, std::
   return total;
 }
 
+constexpr float kUnknown = -1;  // level and noise of a cell that is masked
+
 struct CellStatistics {
   int bin;  // the grey level that holds the median
   float level;
@@ -136,6 +138,32 @@ void gather(const ImageView& image, int left, int top, bool invert, CellSamples<
   }
 }
 
+// Masked samples are replaced by others of the same cell, in turn. Returns false where too few are left.
+template <class Pixel>
+bool replace_masked(const ImageView& image, const PixelMask& mask, int left, int top,
+                    CellSamples<Pixel>& samples) {
+  left = std::max(0, std::min(left, image.width - kCell));
+  top = std::max(0, std::min(top, image.height - kCell));
+  if (!mask.any_in(left, top, left + kCell - 1, top + kCell - 1)) return true;
+  std::array<Pixel, kSamples> kept{};
+  std::size_t count = 0;
+  const auto masked = [&](int row, int i) {
+    const int v = std::min(top + row * (kCell / kSampledRows) + 1, image.height - 1);
+    return mask.at(std::min(left + i, image.width - 1), v);
+  };
+  for (int row = 0; row < kSampledRows; ++row)
+    for (int i = 0; i < kCell; ++i)
+      if (!masked(row, i)) kept[count++] = samples.value[index_of(row)][index_of(i)];
+  if (4 * count < kSamples) return false;
+  std::size_t next = 0;
+  for (int row = 0; row < kSampledRows; ++row) {
+    for (int i = 0; i < kCell; ++i) {
+      if (masked(row, i)) samples.value[index_of(row)][index_of(i)] = kept[next++ % count];
+    }
+  }
+  return true;
+}
+
 // Median of nine, side by side, by the exchanges that matter (Devillard 1998, after Smith).
 [[gnu::always_inline]] inline Floats median_of_nine(std::array<Floats, 9>& p) {
   const auto order = [&](std::size_t a, std::size_t b) __attribute__((always_inline)) {
@@ -187,29 +215,64 @@ BackgroundMap::BackgroundMap(int width, int height) {
 }
 
 template <class Pixel>
-void BackgroundMap::measure_cells(const ImageView& image, bool dark_dots) noexcept {
+void BackgroundMap::measure_cells(const ImageView& image, bool dark_dots, const PixelMask* mask) noexcept {
   CellSamples<Pixel> samples;
   int guess = 16;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       gather(image, column * kCell, row * kCell, dark_dots, samples);
+      const auto i = index_of(row, column, columns_);
+      if (mask != nullptr && !replace_masked(image, *mask, column * kCell, row * kCell, samples)) {
+        raw_level_[i] = raw_noise_[i] = kUnknown;
+        continue;
+      }
       const CellStatistics cell = cell_statistics(samples, sizeof(Pixel) == 1 ? 255 : 65535, guess);
       guess = cell.bin;
-      const auto i = index_of(row, column, columns_);
       raw_level_[i] = cell.level;
       raw_noise_[i] = cell.noise;
     }
   }
 }
 
-void BackgroundMap::build(const ImageView& image, bool dark_dots) noexcept {
+// From the left and from above, then from the right and from below.
+void BackgroundMap::fill_masked_cells() noexcept {
+  const auto take = [&](int row, int column, int from_row, int from_column) {
+    const auto i = index_of(row, column, columns_);
+    if (raw_noise_[i] > 0 || from_row < 0 || from_row >= rows_ || from_column < 0 || from_column >= columns_)
+      return;
+    const auto from = index_of(from_row, from_column, columns_);
+    raw_level_[i] = raw_level_[from];
+    raw_noise_[i] = raw_noise_[from];
+  };
+  for (int row = 0; row < rows_; ++row) {
+    for (int column = 0; column < columns_; ++column) {
+      take(row, column, row, column - 1);
+      take(row, column, row - 1, column);
+    }
+  }
+  for (int row = rows_ - 1; row >= 0; --row) {
+    for (int column = columns_ - 1; column >= 0; --column) {
+      take(row, column, row, column + 1);
+      take(row, column, row + 1, column);
+    }
+  }
+  // All masked: nothing is found there anyway.
+  for (std::size_t i = 0; i < raw_noise_.size(); ++i) {
+    if (raw_noise_[i] > 0) continue;
+    raw_noise_[i] = 1;
+    raw_level_[i] = 0;
+  }
+}
+
+void BackgroundMap::build(const ImageView& image, bool dark_dots, const PixelMask* mask) noexcept {
   columns_ = (image.width + kCell - 1) / kCell;
   rows_ = (image.height + kCell - 1) / kCell;
   if (image.format == PixelFormat::kGrey8) {
-    measure_cells<std::uint8_t>(image, dark_dots);
+    measure_cells<std::uint8_t>(image, dark_dots, mask);
   } else {
-    measure_cells<std::uint16_t>(image, dark_dots);
+    measure_cells<std::uint16_t>(image, dark_dots, mask);
   }
+  if (mask != nullptr) fill_masked_cells();
   smooth(raw_level_, level_);
   smooth(raw_noise_, noise_);
   const auto cells = static_cast<std::ptrdiff_t>(columns_) * rows_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/extractor/index.hpp"
+#include "components/sensor/pixel_mask.hpp"
 #include "hal/image.hpp"
 
 namespace omma {
@@ -21,7 +22,10 @@ class BackgroundMap {
 
   /// Builds the map of one image (not larger than the map).
   /// @param dark_dots  the dots are darker than the background: noise is then measured on the bright side
-  void build(const ImageView& image, bool dark_dots) noexcept;
+  /// @param mask       of the same size: its pixels are left out; null: none. Cells with nothing else take
+  /// what
+  ///                   the nearest ones have
+  void build(const ImageView& image, bool dark_dots, const PixelMask* mask = nullptr) noexcept;
 
   int columns() const { return columns_; }  ///< cells
   int rows() const { return rows_; }        ///< cells
@@ -36,7 +40,8 @@ class BackgroundMap {
 
  private:
   template <class Pixel>
-  void measure_cells(const ImageView& image, bool dark_dots) noexcept;
+  void measure_cells(const ImageView& image, bool dark_dots, const PixelMask* mask) noexcept;
+  void fill_masked_cells() noexcept;
   void smooth(const std::vector<float>& raw, std::vector<float>& out) noexcept;
   float interpolate(const std::vector<float>& map, float u, float v) const noexcept;
 

@@ -22,19 +22,32 @@ struct Blob {
 
   int width() const { return right - left + 1; }
   int height() const { return bottom - top + 1; }
-  void add(int grey, int u, int v) {
-    const int du = u - origin_u;
-    const int dv = v - origin_v;
-    ++area;
-    sum_u += du;
-    sum_v += dv;
-    light += grey;
-    light_u += std::int64_t{grey} * du;
-    light_v += std::int64_t{grey} * dv;
-    peak = grey > peak ? grey : peak;
-  }
+  /// The pixels first … last of row v, `x` being the row; dark dots are turned into bright ones.
+  template <class Pixel>
+  void add_row(const Pixel* x, int first, int last, int v, int white, bool invert);
   void merge(const Blob& other);
 };
+
+template <class Pixel>
+void Blob::add_row(const Pixel* x, int first, int last, int v, int white, bool invert) {
+  std::int64_t row_light = 0, row_light_u = 0;  // about the run's first pixel
+  for (int u = first; u <= last; ++u) {
+    const int grey = invert ? white - x[u] : x[u];
+    row_light += grey;
+    row_light_u += std::int64_t{grey} * (u - first);
+    peak = grey > peak ? grey : peak;
+    saturated += grey >= white ? 1 : 0;
+  }
+  const std::int64_t pixels = last - first + 1;
+  const std::int64_t du = first - origin_u;
+  const std::int64_t dv = v - origin_v;
+  area += static_cast<int>(pixels);
+  sum_u += du * pixels + pixels * (pixels - 1) / 2;
+  sum_v += dv * pixels;
+  light += row_light;
+  light_u += row_light_u + du * row_light;
+  light_v += dv * row_light;
+}
 
 /// Streams rows of runs into finished blobs. `Sink` is called with each finished blob.
 class BlobFinder {

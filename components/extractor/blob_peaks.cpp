@@ -3,6 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
+
+#include "components/extractor/clones.hpp"
+#include "components/extractor/index.hpp"
+#include "components/extractor/lanes.hpp"
 
 namespace omma {
 namespace {
@@ -14,7 +19,37 @@ constexpr float kLeastDepth = 0.05F;
 constexpr float kFilterWeights = 16;
 constexpr float kFilterDeviation = 6;  // √(Σ weights²)
 
-constexpr int kSide = 80;  // most pixels on a side of the smoothed patch
+constexpr int kSide = 96;  // of the smoothed patch, with eight columns to spare on each side
+constexpr int kMost = 80;  // pixels on a side of a box
+
+// The smoothed light of `rows` rows of eight pixels; `x` is the first pixel of the row above, `flip` what
+// bright and dark are turned about (0: not).
+template <class Pixel>
+[[gnu::always_inline]] inline void smooth_eight(const Pixel* x, std::ptrdiff_t stride, int rows, int flip,
+                                                std::int32_t* out) {
+  const auto across = [&](int row) __attribute__((always_inline)) {
+    const Pixel* at = x + row * stride;
+    return load_pixels(at - 1) + 2 * load_pixels(at) + load_pixels(at + 1);
+  };
+  Ints above = across(0);
+  Ints here = across(1);
+  for (int y = 0; y < rows; ++y, out += kSide) {
+    const Ints below = across(y + 2);
+    const Ints sum = above + 2 * here + below;
+    const Ints light = flip > 0 ? 16 * flip - sum : sum;
+    std::memcpy(out, &light, sizeof light);
+    above = here;
+    here = below;
+  }
+}
+OMMA_CLONES void smooth_columns(const std::uint8_t* x, std::ptrdiff_t stride, int rows, int flip,
+                                std::int32_t* out) {
+  smooth_eight(x, stride, rows, flip, out);
+}
+OMMA_CLONES void smooth_columns(const std::uint16_t* x, std::ptrdiff_t stride, int rows, int flip,
+                                std::int32_t* out) {
+  smooth_eight(x, stride, rows, flip, out);
+}
 
 // The smoothed light of a box and a border of one pixel.
 class Patch {
@@ -24,27 +59,36 @@ class Patch {
 
   template <class Pixel>
   void smooth(const ImageView& image, int flip) {
-    std::array<std::int32_t, kSide> across[3];
-    for (int y = -1; y <= height_; ++y) {
-      const Pixel* x = image.row<Pixel>(top_ + y) + left_;
-      auto& row = across[(y + 3) % 3];
-      for (int u = 0; u < width_; ++u) row[static_cast<std::size_t>(u)] = x[u - 1] + 2 * x[u] + x[u + 1];
-      if (y < 1) continue;
-      const auto& above = across[(y + 1) % 3];
-      const auto& here = across[(y + 2) % 3];
-      std::int32_t* out = &value_[static_cast<std::size_t>(y - 1) * kSide];
+    const auto stride = image.stride / static_cast<std::ptrdiff_t>(sizeof(Pixel));
+    constexpr int kEight = static_cast<int>(kLanes);
+    for (int first = 0; first < width_; first += kEight) {
+      // At the right border of the image the last eight lie further left.
+      const int left = std::min(left_ + first, image.width - 1 - kEight);
+      if (left < 1) return smooth_slowly<Pixel>(image, flip);
+      smooth_columns(image.row<Pixel>(top_ - 1) + left, stride, height_, flip,
+                     &value_[index_of(left - left_ + kEight)]);
+    }
+  }
+  int operator()(int u, int v) const { return value_[index_of(v - top_, u - left_ + kMargin, kSide)]; }
+
+ private:
+  static constexpr int kMargin = static_cast<int>(kLanes);
+
+  // An image of a few columns.
+  template <class Pixel>
+  void smooth_slowly(const ImageView& image, int flip) {
+    for (int y = 0; y < height_; ++y) {
       for (int u = 0; u < width_; ++u) {
-        const auto i = static_cast<std::size_t>(u);
-        const std::int32_t sum = above[i] + 2 * here[i] + row[i];
-        out[u] = flip > 0 ? 16 * flip - sum : sum;
+        int sum = 0;
+        for (int row = -1; row <= 1; ++row) {
+          const Pixel* x = image.row<Pixel>(top_ + y + row) + left_ + u;
+          sum += (row == 0 ? 2 : 1) * (x[-1] + 2 * x[0] + x[1]);
+        }
+        value_[index_of(y, u + kMargin, kSide)] = flip > 0 ? 16 * flip - sum : sum;
       }
     }
   }
-  int operator()(int u, int v) const {
-    return value_[static_cast<std::size_t>(v - top_) * kSide + static_cast<std::size_t>(u - left_)];
-  }
 
- private:
   int left_, top_, width_, height_;
   std::array<std::int32_t, std::size_t{kSide} * kSide> value_;
 };
@@ -69,7 +113,7 @@ void find_peaks(const ImageView& image, bool invert, const Candidate& candidate,
   const int right = std::min(candidate.right, image.width - 3);
   const int top = std::max(candidate.top, 2);
   const int bottom = std::min(candidate.bottom, image.height - 3);
-  if (right < left || bottom < top || right - left + 3 > kSide || bottom - top + 3 > kSide) return;
+  if (right < left || bottom < top || right - left + 3 > kMost || bottom - top + 3 > kMost) return;
   Patch smoothed(left, top, right, bottom);
   const int flip = invert ? image.white_level : 0;
   if (image.format == PixelFormat::kGrey8) {

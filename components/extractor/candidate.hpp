@@ -8,6 +8,7 @@ struct PixelNoise {
   float background = 0;  ///< local, dark dots already turned into bright ones [grey levels]
   float sigma = 1;       ///< standard deviation of a pixel of the background [grey levels]
   float gain = 0;        ///< electrons per grey level
+  float relative = 0;    ///< noise that is this share of the light
 };
 
 struct Candidate {

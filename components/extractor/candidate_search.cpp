@@ -9,14 +9,15 @@ CandidateSearch::CandidateSearch(int width, int height)
     : width_(width), height_(height), background_(width, height), filter_(width, height), blobs_(width) {}
 
 std::uint32_t CandidateSearch::find(const ImageView& image, bool invert,
-                                    const ExtractorParameters& parameters,
+                                    const ExtractorParameters& parameters, const PixelMask* blind,
                                     std::vector<Candidate>& candidates) noexcept {
   image_ = image;
   invert_ = invert;
+  blind_ = blind;
   parameters_ = &parameters;
   candidates_ = &candidates;
   without_room_ = 0;
-  background_.build(image, invert);
+  background_.build(image, invert, blind);
   filter_.start(image, invert, background_, parameters.threshold);
   blobs_.start();
   const auto finished = [this](const Blob& blob) { add_candidates(blob); };
@@ -43,7 +44,7 @@ void CandidateSearch::add_candidates(const Blob& blob) noexcept {
   const float u = 0.5F * static_cast<float>(blob.left + blob.right);
   const float v = 0.5F * static_cast<float>(blob.top + blob.bottom);
   PixelNoise& noise = candidate.noise;
-  noise = {background_.level(u, v), background_.noise(u, v), parameters_->gain};
+  noise = {background_.level(u, v), background_.noise(u, v), parameters_->gain, parameters_->relative_noise};
   if (noise.gain <= 0) {  // unknown: the background as if it were all shot noise
     noise.gain = std::max(1.0F, noise.background - parameters_->black_level) / (noise.sigma * noise.sigma);
   }
@@ -88,6 +89,7 @@ void CandidateSearch::add_runs(int v) noexcept {
   int first = -1;  // of a run that reaches into the next word
   for (int k = 0; k < filter_.words(); ++k) {
     std::uint64_t word = filter_.word(k);
+    if (blind_ != nullptr) word &= ~blind_->word(v, k);
     const int base = k * DetectionFilter::kWord;
     if (first >= 0) {
       const int ones = std::countr_one(word);
@@ -112,12 +114,10 @@ void CandidateSearch::add_runs(int v) noexcept {
 }
 
 void CandidateSearch::add_pixels(int first, int last, int v, Blob& blob) noexcept {
-  for (int u = first; u <= last; ++u) {
-    const int raw = image_.format == PixelFormat::kGrey8 ? image_.row<std::uint8_t>(v)[u]
-                                                         : image_.row<std::uint16_t>(v)[u];
-    const int value = invert_ ? image_.white_level - raw : raw;
-    blob.add(value, u, v);
-    if (value >= image_.white_level) ++blob.saturated;
+  if (image_.format == PixelFormat::kGrey8) {
+    blob.add_row(image_.row<std::uint8_t>(v), first, last, v, image_.white_level, invert_);
+  } else {
+    blob.add_row(image_.row<std::uint16_t>(v), first, last, v, image_.white_level, invert_);
   }
 }
 

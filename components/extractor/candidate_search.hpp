@@ -21,9 +21,10 @@ class CandidateSearch {
 
   /// Adds the image's candidates; where their capacity does not suffice, the faint half gives way.
   /// @param invert  the dots are darker than the background
+  /// @param blind   of the same size: no pixel in it is part of a dot; null: none
   /// @return how many gave way
   std::uint32_t find(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-                     std::vector<Candidate>& candidates) noexcept;
+                     const PixelMask* blind, std::vector<Candidate>& candidates) noexcept;
 
   const BackgroundMap& background() const { return background_; }  ///< of the last image
 
@@ -41,6 +42,7 @@ class CandidateSearch {
   // While find runs:
   ImageView image_;
   bool invert_ = false;
+  const PixelMask* blind_ = nullptr;
   const ExtractorParameters* parameters_ = nullptr;
   std::vector<Candidate>* candidates_ = nullptr;
   std::uint32_t without_room_ = 0;

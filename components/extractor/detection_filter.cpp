@@ -83,9 +83,13 @@ OMMA_CLONES void find_over(const std::uint8_t* x, const std::uint8_t* limit, int
 }
 
 bool strip_over(const std::uint8_t* x, std::uint8_t limit) {
-  std::uint8_t over = 0;
-  for (int i = 0; i < kStrip; ++i) over = static_cast<std::uint8_t>(over | (x[i] > limit ? 1 : 0));
-  return over != 0;
+  using Strip = std::uint8_t __attribute__((vector_size(kStrip)));
+  Strip values;
+  std::memcpy(&values, x, sizeof values);
+  const auto over = values > limit;
+  std::array<std::uint64_t, 2> halves;
+  std::memcpy(halves.data(), &over, sizeof halves);
+  return (halves[0] | halves[1]) != 0;
 }
 
 // Bit i: the smoothed value of pixel i of a strip (made brighter by turning it about `turn`, where that is

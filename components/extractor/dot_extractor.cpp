@@ -1,8 +1,6 @@
 #include "components/extractor/dot_extractor.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace omma {
 namespace {
@@ -18,15 +16,17 @@ DotExtractor::DotExtractor(int width, int height)
       fine_(width, height),
       halved_(width, height),
       coarse_(std::max(3, width / 2), std::max(3, height / 2)),
+      halved_mask_(std::max(3, width / 2), std::max(3, height / 2)),
       measurement_(width, height, kCandidates) {
   candidates_.reserve(kCandidates);
   coarse_candidates_.reserve(kCandidates / 2);
   found_.reserve(kCandidates);
-  order_.reserve(kCandidates);
+  ranking_.reserve(kCandidates);
 }
 
 void DotExtractor::extract(const ImageView& image, const ExtractorParameters& parameters,
-                           DotList& list) noexcept {
+                           const ImageMasks& masks, DotList& list) noexcept {
+  masks_ = masks;
   list.dots.clear();
   list.dropped = 0;
   found_.clear();
@@ -42,11 +42,11 @@ void DotExtractor::extract(const ImageView& image, const ExtractorParameters& pa
 void DotExtractor::search(const ImageView& image, const ExtractorParameters& parameters,
                           bool invert) noexcept {
   candidates_.clear();
-  overflow_ += fine_.find(image, invert, parameters, candidates_);
-  const float width = measurement_.start(image, invert, parameters, candidates_);
+  overflow_ += fine_.find(image, invert, parameters, masks_.blind, candidates_);
+  const float width = measurement_.start(image, invert, parameters, masks_, candidates_);
   if (width > kWide && width_ >= 6 && height_ >= 6) {
     add_wide(image, parameters, invert, width);
-    measurement_.start(image, invert, parameters, candidates_);
+    measurement_.start(image, invert, parameters, masks_, candidates_);
   }
   overflow_ += static_cast<std::uint32_t>(measurement_.measure(candidates_, found_));
 }
@@ -56,7 +56,9 @@ void DotExtractor::search(const ImageView& image, const ExtractorParameters& par
 void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& parameters, bool invert,
                             float width) noexcept {
   coarse_candidates_.clear();
-  overflow_ += coarse_.find(halved_.build(image), invert, parameters, coarse_candidates_);
+  if (masks_.blind != nullptr) halved_mask_.halve(*masks_.blind);
+  overflow_ += coarse_.find(halved_.build(image), invert, parameters,
+                            masks_.blind != nullptr ? &halved_mask_ : nullptr, coarse_candidates_);
   for (Candidate& candidate : coarse_candidates_) HalvedImage::enlarge(fine_.background(), candidate);
   std::sort(coarse_candidates_.begin(), coarse_candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.v != b.v ? a.v < b.v : a.u < b.u; });
@@ -83,26 +85,28 @@ void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& p
 // The best by signal-to-noise ratio, handed over brightest first; ties in reading order, so that the result
 // is the same on every machine.
 void DotExtractor::keep_best(DotList& list) noexcept {
-  const auto reading_order = [](const Dot& a, const Dot& b) {
-    return a.pixel.y() != b.pixel.y() ? a.pixel.y() < b.pixel.y() : a.pixel.x() < b.pixel.x();
+  const auto greater = [this](const Ranked& a, const Ranked& b) {
+    if (a.value != b.value) return a.value > b.value;
+    const Eigen::Vector2d& p = found_[a.dot].pixel;
+    const Eigen::Vector2d& q = found_[b.dot].pixel;
+    return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
   };
-  const auto surer = [&](const Dot& a, const Dot& b) {
-    return a.snr != b.snr ? a.snr > b.snr : reading_order(a, b);
-  };
-  const auto brighter = [&](const Dot& a, const Dot& b) {
-    return a.flux != b.flux ? a.flux > b.flux : reading_order(a, b);
+  const auto rank_by = [this](float Dot::*value) {
+    for (Ranked& ranked : ranking_) ranked.value = found_[ranked.dot].*value;
   };
   const std::size_t kept = std::min(found_.size(), limits::kDotsPerCamera);
   list.dropped = static_cast<std::uint32_t>(found_.size() - kept) + overflow_;
-  order_.resize(found_.size());
-  std::iota(order_.begin(), order_.end(), std::uint16_t{0});
-  const auto by = [&](const auto& rule) {
-    return [this, &rule](std::uint16_t a, std::uint16_t b) { return rule(found_[a], found_[b]); };
-  };
-  const auto end = order_.begin() + static_cast<std::ptrdiff_t>(kept);
-  if (kept < found_.size()) std::nth_element(order_.begin(), end, order_.end(), by(surer));
-  std::sort(order_.begin(), end, by(brighter));
-  for (std::size_t i = 0; i < kept; ++i) list.dots.push_back(found_[order_[i]]);
+  ranking_.clear();
+  for (std::size_t i = 0; i < found_.size(); ++i) ranking_.push_back({0, static_cast<std::uint16_t>(i)});
+  if (kept < found_.size()) {
+    rank_by(&Dot::snr);
+    std::nth_element(ranking_.begin(), ranking_.begin() + static_cast<std::ptrdiff_t>(kept), ranking_.end(),
+                     greater);
+    ranking_.resize(kept);
+  }
+  rank_by(&Dot::flux);
+  std::sort(ranking_.begin(), ranking_.end(), greater);
+  for (const Ranked& ranked : ranking_) list.dots.push_back(found_[ranked.dot]);
 }
 
 }  // namespace omma

@@ -21,9 +21,23 @@ class DotExtractor {
 
   /// Fills the dots, their count dropped, background and noise of `list`; its frame, time and status are the
   /// caller's. An image of another size, or smaller than 3×3, gives no dots.
-  void extract(const ImageView& image, const ExtractorParameters& parameters, DotList& list) noexcept;
+  /// @param masks  of the image's size, or null
+  void extract(const ImageView& image, const ExtractorParameters& parameters, const ImageMasks& masks,
+               DotList& list) noexcept;
+  void extract(const ImageView& image, const ExtractorParameters& parameters, DotList& list) noexcept {
+    extract(image, parameters, {}, list);
+  }
+
+  int height() const { return height_; }  ///< [px]
+  /// Of the last image.
+  const BackgroundMap& background() const { return fine_.background(); }
 
  private:
+  struct Ranked {
+    float value;
+    std::uint16_t dot;
+  };
+
   void search(const ImageView& image, const ExtractorParameters& parameters, bool invert) noexcept;
   void add_wide(const ImageView& image, const ExtractorParameters& parameters, bool invert,
                 float width) noexcept;
@@ -33,13 +47,15 @@ class DotExtractor {
 
   int width_;
   int height_;
+  ImageMasks masks_;
   CandidateSearch fine_;
   HalvedImage halved_;
   CandidateSearch coarse_;
+  PixelMask halved_mask_;
   std::vector<Candidate> candidates_, coarse_candidates_;
   DotMeasurement measurement_;
   std::vector<Dot> found_;
-  std::vector<std::uint16_t> order_;
+  std::vector<Ranked> ranking_;
   std::uint32_t overflow_ = 0;  // candidates beyond the scratch
 };
 

@@ -16,7 +16,7 @@ constexpr float kNarrowest = 0.55F;    // spot of an image, in widths of its poi
 constexpr double kModelError = 0.002;  // what no model of a real spot is better than [px]
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
-constexpr double kSecondOrder = 11;
+constexpr double kSecondOrder = 7;
 constexpr double kStretched =
     0.3;  // excess of the long axis's variance from which a trail is tried [variance]
 constexpr double kTrailGain = 15;        // by which a trail's χ² must be smaller
@@ -25,6 +25,10 @@ constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
 // Of one image at most so many dots are measured: the best of them are handed over.
 constexpr std::size_t kMost = 2 * limits::kDotsPerCamera;
 constexpr int kSweeps = 2;  // over spots in each other's light, after the first
+
+int nearest_pixel(double place) {
+  return static_cast<int>(std::floor(place + 0.5));
+}
 
 int radius_for(double sigma) {
   return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
@@ -65,40 +69,13 @@ DotMeasurement::DotMeasurement(int width, int height, std::size_t dots) : field_
   widths_.reserve(kSample);
 }
 
-// The pixels within `radius` of (u, v); full ones and those outside the image do not count.
+// The pixels within `radius` of (u, v).
 void DotMeasurement::load(double u, double v, int radius) noexcept {
-  const int side = 2 * radius + 1;
-  window_.left = static_cast<int>(std::lround(u)) - radius;
-  window_.top = static_cast<int>(std::lround(v)) - radius;
-  window_.width = side;
-  window_.height = side;
-  window_.counted = 0;
-  const int all = padded(side);
-  const auto fill = [&]<class Pixel>(Pixel /*type*/) {
-    const int white = image_->white_level;
-    for (int y = 0; y < side; ++y) {
-      float* light = &window_.light[static_cast<std::size_t>(y) * kSpotSide];
-      float* weight = &window_.weight[static_cast<std::size_t>(y) * kSpotSide];
-      std::fill(light, light + all, 0.0F);
-      std::fill(weight, weight + all, 0.0F);
-      const int row = window_.top + y;
-      if (row < 0 || row >= image_->height) continue;
-      const Pixel* pixels = image_->row<Pixel>(row);
-      const int end = std::min(side, image_->width - window_.left);
-      for (int x = std::max(0, -window_.left); x < end; ++x) {
-        const int value = invert_ ? white - pixels[window_.left + x] : pixels[window_.left + x];
-        if (value >= white) continue;
-        light[x] = static_cast<float>(value) - background_;
-        weight[x] = 1;
-        ++window_.counted;
-      }
-    }
-  };
-  if (image_->format == PixelFormat::kGrey8) {
-    fill(std::uint8_t{});
-  } else {
-    fill(std::uint16_t{});
-  }
+  window_.left = nearest_pixel(u) - radius;
+  window_.top = nearest_pixel(v) - radius;
+  window_.width = 2 * radius + 1;
+  window_.height = window_.width;
+  load_window(*image_, invert_, background_, masks_, window_);
 }
 
 void DotMeasurement::start_at(const Candidate& candidate) noexcept {
@@ -142,7 +119,7 @@ bool DotMeasurement::fit_point(const Candidate& candidate, std::size_t self) noe
     load(fit_.u, fit_.v, radius);
     crowded_ = field_.take_away(self, noise.sigma, window_);
     if (window_.counted < kLeastPixels) return false;
-    fit_spot(window_, static_cast<double>(noise.sigma) * noise.sigma, noise.gain, prior_, fit_);
+    fit_spot(window_, noise, prior_, fit_);
     if (!fit_.usable) return false;
     const int wanted = radius_for(fit_.sigma);
     const bool centred =
@@ -156,8 +133,8 @@ bool DotMeasurement::fit_point(const Candidate& candidate, std::size_t self) noe
 // A single lit pixel: its four neighbours together have less light than the narrowest spot would leave them,
 // beyond what noise explains.
 bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
-  const int x = static_cast<int>(std::lround(fit_.u)) - window_.left;
-  const int y = static_cast<int>(std::lround(fit_.v)) - window_.top;
+  const int x = nearest_pixel(fit_.u) - window_.left;
+  const int y = nearest_pixel(fit_.v) - window_.top;
   if (x < 1 || y < 1 || x > window_.width - 2 || y > window_.height - 2) return false;
   const auto at = [&](int row, int column) {
     return static_cast<double>(window_.light[index_of(row, column, kSpotSide)]);
@@ -202,7 +179,7 @@ bool DotMeasurement::try_trail(const Candidate& candidate, std::size_t self, Dot
   trail_ = TrailFit{};
   start_trail(window_, noise.sigma, trail_);
   fit_trail(window_, variance, noise.gain, prior_.background_error, trail_);
-  fit_spot(window_, variance, noise.gain, prior_, fit_);
+  fit_spot(window_, noise, prior_, fit_);
   const int freedom = std::max(1, window_.counted - 7);
   const double round_chi2 = fit_.chi2_per_pixel * std::max(1, window_.counted - 5);
   const bool better = trail_.usable && (!fit_.usable || trail_.chi2 + kTrailGain < round_chi2) &&
@@ -262,6 +239,18 @@ void DotMeasurement::finish(const Candidate& candidate, Dot& dot) const noexcept
       candidate.bottom >= image_->height - 2) {
     dot.flags |= kDotAtEdge;
   }
+  if (masks_.blind != nullptr && masks_.blind->any_in(candidate.left - 1, candidate.top - 1,
+                                                      candidate.right + 1, candidate.bottom + 1)) {
+    dot.flags |= kDotAtEdge;
+  }
+}
+
+// A fit that ends behind the mask's edge found what is masked.
+bool DotMeasurement::is_blind(const Eigen::Vector2d& pixel) const noexcept {
+  if (masks_.blind == nullptr) return false;
+  const int u = nearest_pixel(pixel.x());
+  const int v = nearest_pixel(pixel.y());
+  return masks_.blind->any_in(u, v, u, v);
 }
 
 // Median and spread of the widths of the brightest spots that stand alone.
@@ -332,10 +321,12 @@ bool DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
 }
 
 float DotMeasurement::start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-                            std::vector<Candidate>& candidates) noexcept {
+                            const ImageMasks& masks, std::vector<Candidate>& candidates) noexcept {
   image_ = &image;
   parameters_ = &parameters;
   invert_ = invert;
+  masks_ = masks;
+  prior_.aperture = std::sqrt(parameters.fill_factor);
   field_.clear();
   dot_of_spot_.clear();
   std::sort(candidates.begin(), candidates.end(), brighter);
@@ -373,6 +364,7 @@ std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
     } else if (!measure_disc(candidate, dot)) {
       continue;
     }
+    if (is_blind(dot.pixel)) continue;
     finish(candidate, dot);
     dots.push_back(dot);
   }

@@ -24,9 +24,10 @@ class DotMeasurement {
 
   /// Takes an image and puts its candidates into order, brightest first.
   /// @param invert  the dots are darker than the background
+  /// @param masks   outlive the measuring
   /// @return width of the image's point spread [px]; 0 where too few spots tell it
   float start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-              std::vector<Candidate>& candidates) noexcept;
+              const ImageMasks& masks, std::vector<Candidate>& candidates) noexcept;
   /// Measures the candidates last given to start, brightest first, and adds what is found to `dots`, up to
   /// twice what a list of dots holds and up to their capacity.
   /// @return how many candidates were left unmeasured
@@ -47,11 +48,13 @@ class DotMeasurement {
   void set_narrowest(float sigma) noexcept;
   bool is_hot_pixel(const Candidate& candidate) const noexcept;
   bool remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
+  bool is_blind(const Eigen::Vector2d& pixel) const noexcept;
   void finish(const Candidate& candidate, Dot& dot) const noexcept;
 
   const ImageView* image_ = nullptr;  // while measure runs
   const ExtractorParameters* parameters_ = nullptr;
   bool invert_ = false;
+  ImageMasks masks_;
   float background_ = 0;  // of the candidate at hand
   SpotWindow window_;
   SpotFit fit_;

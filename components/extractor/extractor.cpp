@@ -4,8 +4,7 @@ namespace omma {
 
 Extractor::Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool) : pool_(pool) {
   for (const ExtractorCamera& camera : cameras) {
-    parameters_.push_back(camera.parameters);
-    extractors_.push_back(std::make_unique<DotExtractor>(camera.width, camera.height));
+    cameras_.push_back(std::make_unique<CameraDots>(camera));
   }
   dots->cameras.resize(cameras.size());
 }
@@ -21,7 +20,7 @@ void Extractor::step(const Tick& /*tick*/) noexcept {
     for (std::size_t c = 0; c < parameters_.size(); ++c) take_parameters(*tuning, parameters_[c], c);
   dots->frame = frames->number;
   dots->time_ns = frames->trigger_time_ns;
-  pool_.run(static_cast<int>(extractors_.size()),
+  pool_.run(static_cast<int>(cameras_.size()),
             [this](int camera) { extract_camera(static_cast<std::size_t>(camera)); });
   // The frame set's time is that of its fresh frames; all cameras expose on one trigger.
   for (const DotList& list : dots->cameras) {
@@ -51,7 +50,7 @@ void Extractor::extract_camera(std::size_t camera) noexcept {
   list.dropped = 0;
   // Only a frame of this trigger may be used: an old one shows where the sky was.
   if (frame.status != FrameStatus::kFresh) return;
-  extractors_[camera]->extract(frame.image, parameters_[camera], list);
+  cameras_[camera]->find(frame.image, list);
 }
 
 }  // namespace omma

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "components/camera/frames.hpp"
-#include "components/extractor/dot_extractor.hpp"
+#include "components/extractor/camera_dots.hpp"
 #include "components/extractor/dot_lists.hpp"
 #include "components/extractor/extractor_tuning.hpp"
 #include "fsw/kernel/component.hpp"
@@ -16,13 +16,6 @@
 #include "fsw/services/parameter_input.hpp"
 
 namespace omma {
-
-/// One camera's image size and what is looked for in it.
-struct ExtractorCamera {
-  int width = 0;   ///< [px]
-  int height = 0;  ///< [px]
-  ExtractorParameters parameters;
-};
 
 class Extractor final : public Component {
  public:
@@ -43,8 +36,7 @@ class Extractor final : public Component {
   void extract_camera(std::size_t camera) noexcept;
 
   WorkerPool& pool_;
-  std::vector<ExtractorParameters> parameters_;
-  std::vector<std::unique_ptr<DotExtractor>> extractors_;
+  std::vector<std::unique_ptr<CameraDots>> cameras_;
 };
 
 }  // namespace omma

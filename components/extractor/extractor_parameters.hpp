@@ -16,6 +16,11 @@ struct ExtractorParameters {
   DotPolarity polarity = DotPolarity::kBright;
   /// Detection: excess of the smoothed image over the local background, in its own standard deviations.
   float threshold = 5.0F;
+  /// Noise that grows with the light itself, as a share of it: of a sensor whose response was made even, of a
+  /// lens whose spots are no Gaussians.
+  float relative_noise = 0.0F;
+  /// Share of a pixel's area that takes light.
+  float fill_factor = 1.0F;
   /// Electrons per grey level; 0 = unknown, then taken as if the background were shot noise (an upper bound
   /// of the photon noise).
   float gain = 0.0F;

@@ -35,13 +35,18 @@ struct NormalEquations {
   double chi2;
 };
 
+// Of a pixel, by the light of the spot in it.
+struct Variance {
+  float dark, per_light, per_square;
+};
+
 struct State {
   double flux, sigma, background, u, v;
 };
 
 [[gnu::always_inline]] inline void sum_columns(const SpotWindow& window, std::size_t first,
                                                const SpotProfile& along_u, const SpotProfile& along_v,
-                                               const State& at, float variance, float per_gain,
+                                               const State& at, const Variance& variance,
                                                ColumnSums& result) {
   ColumnSums sums{};
   const Floats across = static_cast<float>(at.flux) * load(&along_u.share[first]);
@@ -51,7 +56,8 @@ struct State {
     const float d = along_v.by_place[y];
     const float s = along_v.by_sigma[y];
     const Floats spot = across * e;
-    const Floats w = load(&window.weight[y * kSpotSide + first]) / (variance + per_gain * spot);
+    const Floats w = load(&window.weight[y * kSpotSide + first]) /
+                     (variance.dark + (variance.per_light + variance.per_square * spot) * spot);
     const Floats residual = load(&window.light[y * kSpotSide + first]) - spot - background;
     const Floats wr = w * residual;
     const Floats we = w * e;
@@ -114,27 +120,37 @@ using ColumnGroups = std::array<ColumnSums, kGroups>;
     rr += c.rr;
   }
   const double f = flux;
-  const auto total = [](const Floats& x) __attribute__((always_inline)) {
-    return static_cast<double>(sum(x));
+  const Floats none{};
+  const HalfFloats flux_row = sums(aa, ab, ga, rr), sigma_row = sums(as, sb, gs, none);
+  const HalfFloats squares = sums(ss, uu, uv, vv), across = sums(su, sv, bb, gb);
+  const HalfFloats place = sums(au, av, bu, bv), scores = sums(gu, gv, none, none);
+  const auto at = [](const HalfFloats& x, int i) __attribute__((always_inline)) {
+    return static_cast<double>(x[i]);
   };
-  n = {{{total(aa)},
-        {f * total(as), f * f * total(ss)},
-        {total(ab), f * total(sb), total(bb)},
-        {f * total(au), f * f * total(su), f * total(bu), f * f * total(uu)},
-        {f * total(av), f * f * total(sv), f * total(bv), f * f * total(uv), f * f * total(vv)}},
-       {total(ga), f * total(gs), total(gb), f * total(gu), f * total(gv)},
-       total(rr)};
+  n = {{{at(flux_row, 0)},
+        {f * at(sigma_row, 0), f * f * at(squares, 0)},
+        {at(flux_row, 1), f * at(sigma_row, 1), at(across, 2)},
+        {f * at(place, 0), f * f * at(across, 0), f * at(place, 2), f * f * at(squares, 1)},
+        {f * at(place, 1), f * f * at(across, 1), f * at(place, 3), f * f * at(squares, 2),
+         f * f * at(squares, 3)}},
+       {at(flux_row, 2), f * at(sigma_row, 2), at(across, 3), f * at(scores, 0), f * at(scores, 1)},
+       at(flux_row, 3)};
 }
 
 // Everything of one iteration that is done on pixels.
-OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, float variance, float per_gain,
+OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, const Variance& variance, float aperture,
                           SpotProfile& along_u, ColumnGroups& groups, NormalEquations& n) {
   SpotProfile along_v;
-  along_u.fill(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width);
-  along_v.fill(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height);
+  if (aperture < 1) {
+    along_u.fill_with_gaps(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width, aperture);
+    along_v.fill_with_gaps(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height, aperture);
+  } else {
+    along_u.fill(static_cast<float>(at.u), static_cast<float>(at.sigma), window.width);
+    along_v.fill(static_cast<float>(at.v), static_cast<float>(at.sigma), window.height);
+  }
   const std::size_t used = static_cast<std::size_t>(padded(window.width)) / kLanes;
   for (std::size_t i = 0; i < used; ++i)
-    sum_columns(window, kLanes * i, along_u, along_v, at, variance, per_gain, groups[i]);
+    sum_columns(window, kLanes * i, along_u, along_v, at, variance, groups[i]);
   normal_equations(groups, used, along_u, at.flux, n);
 }
 
@@ -161,10 +177,10 @@ OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const S
 
 }  // namespace
 
-void fit_spot(const SpotWindow& window, double noise_variance, double gain, const SpotPrior& prior,
+void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior& prior,
               SpotFit& fit) noexcept {
-  const auto variance = static_cast<float>(noise_variance);
-  const float per_gain = gain > 0 ? static_cast<float>(1 / gain) : 0.0F;
+  const Variance variance{noise.sigma * noise.sigma, noise.gain > 0 ? 1 / noise.gain : 0.0F,
+                          noise.relative * noise.relative};
   const double sigma_information = 1.0 / (static_cast<double>(prior.sigma_error) * prior.sigma_error);
   const double background_information =
       1.0 / (static_cast<double>(prior.background_error) * prior.background_error);
@@ -180,7 +196,7 @@ void fit_spot(const SpotWindow& window, double noise_variance, double gain, cons
   double flux_before = at.flux;
   double sigma_before = at.sigma;
   for (int k = 0; k < kIterations && !settled; ++k) {
-    evaluate(window, at, variance, per_gain, along_u, groups, n);
+    evaluate(window, at, variance, prior.aperture, along_u, groups, n);
     fit.flux_information = n.h[0][0];
     n.h[1][1] += sigma_information;
     n.g[1] += sigma_information * (static_cast<double>(prior.sigma) - at.sigma);

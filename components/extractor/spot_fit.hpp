@@ -5,27 +5,19 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
+#include "components/extractor/candidate.hpp"
 #include "components/extractor/spot_profile.hpp"
+#include "components/extractor/spot_window.hpp"
 
 namespace omma {
-
-/// Pixels about a spot: light over the background, and which of them count.
-struct SpotWindow {
-  static constexpr int kRows = 25;
-  int left = 0, top = 0;                                     ///< image place of pixel (0, 0)
-  int width = 0, height = 0;                                 ///< [px], at most kRows
-  int counted = 0;                                           ///< pixels with weight 1
-  std::array<float, std::size_t{kRows} * kSpotSide> light;   ///< rows of kSpotSide [grey levels]
-  std::array<float, std::size_t{kRows} * kSpotSide> weight;  ///< 1, or 0: full, outside, padding
-};
 
 /// What is known before the pixels are looked at.
 struct SpotPrior {
   float sigma = 1.0F;             ///< width of the point spread [px]
   float sigma_error = 1.0F;       ///< its standard deviation [px]
   float background_error = 1.0F;  ///< of the local background taken away [grey levels]
+  float aperture = 1.0F;          ///< side of the part of a pixel that takes light [px]
 };
 
 struct SpotFit {
@@ -40,10 +32,9 @@ struct SpotFit {
   double shape_error = 0;  ///< standard deviation of either [px²]
 };
 
-/// @param noise_variance  of a pixel without the spot's own light [grey levels²]
-/// @param gain            electrons per grey level; 0: the spot's light brings no noise
-/// @param start           flux, u, v, sigma to start from
-void fit_spot(const SpotWindow& window, double noise_variance, double gain, const SpotPrior& prior,
+/// @param noise  of the pixels; its gain 0: the spot's light brings no photon noise
+/// @param fit    flux, u, v, sigma to start from
+void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior& prior,
               SpotFit& fit) noexcept;
 
 }  // namespace omma

@@ -52,7 +52,45 @@ struct SpotProfile {
     const int all = padded(pixels);
     Floats edge = Floats{0, 1, 2, 3, 4, 5, 6, 7} - (0.5F + place);
     for (int i = 0; i < all; i += 8, edge += 8.0F) {
-      const Floats z = edge * per_sigma;
+      const Edge at(edge * per_sigma);
+      store(&below[static_cast<std::size_t>(i)], at.below);
+      store(&density[static_cast<std::size_t>(i)], at.density);
+      store(&moment[static_cast<std::size_t>(i)], at.moment);
+    }
+    Ints column = Ints{0, 1, 2, 3, 4, 5, 6, 7};
+    for (int k = 0; k < all; k += 8, column += 8) {
+      const auto i = static_cast<std::size_t>(k);
+      const Ints inside = column < pixels;
+      put(&share[i], load(&below[i + 1]) - load(&below[i]), inside);
+      put(&by_place[i], (load(&density[i]) - load(&density[i + 1])) * per_sigma, inside);
+      put(&by_sigma[i], (load(&moment[i]) - load(&moment[i + 1])) * per_sigma, inside);
+    }
+  }
+
+  /// The same for pixels of which only the middle takes light; the shares still add up to 1 on average.
+  /// @param aperture  side of that part [px], below 1
+  [[gnu::always_inline]] void fill_with_gaps(float place, float sigma, int pixels, float aperture) {
+    const float per_sigma = 1.0F / sigma;
+    const float scale = 1.0F / aperture;
+    Ints column = Ints{0, 1, 2, 3, 4, 5, 6, 7};
+    Floats middle = Floats{0, 1, 2, 3, 4, 5, 6, 7} - place;
+    for (int k = 0; k < padded(pixels); k += 8, column += 8, middle += 8.0F) {
+      const auto i = static_cast<std::size_t>(k);
+      const Ints inside = column < pixels;
+      const Edge lower((middle - 0.5F * aperture) * per_sigma);
+      const Edge upper((middle + 0.5F * aperture) * per_sigma);
+      put(&share[i], (upper.below - lower.below) * scale, inside);
+      put(&by_place[i], (lower.density - upper.density) * (per_sigma * scale), inside);
+      put(&by_sigma[i], (lower.moment - upper.moment) * (per_sigma * scale), inside);
+    }
+  }
+
+ private:
+  // Φ(z), φ(z) and z φ(z) at the edges of pixels.
+  struct Edge {
+    Floats below, density, moment;
+
+    [[gnu::always_inline]] explicit Edge(const Floats& z) {
       const Floats size = z < 0.0F ? -z : z;
       const Floats bell = exp_of_negative(-0.5F * z * z);
       const Floats t = 1.0F / (1.0F + 0.23164190F * size);  // 0.3275911 / √2
@@ -61,20 +99,13 @@ struct SpotProfile {
       tail = tail * t + 1.421413741F;
       tail = tail * t - 0.284496736F;
       tail = 0.5F * (tail * t + 0.254829592F) * t * bell;
-      store(&below[static_cast<std::size_t>(i)], z < 0.0F ? tail : 1.0F - tail);
-      store(&density[static_cast<std::size_t>(i)], 0.398942280F * bell);
-      store(&moment[static_cast<std::size_t>(i)], 0.398942280F * z * bell);
+      below = z < 0.0F ? tail : 1.0F - tail;
+      density = 0.398942280F * bell;
+      moment = 0.398942280F * z * bell;
     }
-    for (int k = 0; k < all; k += 8) {
-      const auto i = static_cast<std::size_t>(k);
-      store(&share[i], load(&below[i + 1]) - load(&below[i]));
-      store(&by_place[i], (load(&density[i]) - load(&density[i + 1])) * per_sigma);
-      store(&by_sigma[i], (load(&moment[i]) - load(&moment[i + 1])) * per_sigma);
-    }
-    for (int k = pixels; k < all; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      share[i] = by_place[i] = by_sigma[i] = 0;
-    }
+  };
+  [[gnu::always_inline]] static void put(float* to, const Floats& x, const Ints& inside) {
+    store(to, std::bit_cast<Floats>(std::bit_cast<Ints>(x) & inside));
   }
 };
 

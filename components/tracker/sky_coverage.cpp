@@ -22,10 +22,12 @@ double largest_angle(const std::vector<Eigen::Vector3d>& rays) {
 
 }  // namespace
 
-SkyCoverage sky_coverage(const Rig& rig) {
+SkyCoverage sky_coverage(const Rig& rig, std::span<const PixelMask> masks) {
   SkyCoverage coverage;
   std::vector<Eigen::Vector3d> rig_rays;
-  for (const RigCamera& camera : rig.cameras) {
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    const RigCamera& camera = rig.cameras[c];
+    const bool masked = c < masks.size() && masks[c].any();
     const double width = double(camera.lens.width()) / kGrid;
     const double height = double(camera.lens.height()) / kGrid;
     std::vector<Eigen::Vector3d> rays;
@@ -36,6 +38,9 @@ SkyCoverage sky_coverage(const Rig& rig) {
         Eigen::Matrix<double, 3, 2> by_pixel;
         const Eigen::Vector2d pixel((column + 0.5) * width - 0.5, (row + 0.5) * height - 0.5);
         if (!camera.lens.bearing(pixel, ray, by_pixel)) continue;
+        const auto u = static_cast<int>(std::lround(pixel.x()));
+        const auto v = static_cast<int>(std::lround(pixel.y()));
+        if (masked && masks[c].any_in(u, v, u, v)) continue;
         solid_angle += by_pixel.col(0).cross(by_pixel.col(1)).norm() * width * height;
         const bool sparse = row % 4 == 0 || column % 4 == 0;  // plenty for the largest angle
         if (sparse) rays.push_back(camera.rig_from_camera.rotation * ray);

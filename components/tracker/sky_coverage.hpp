@@ -2,7 +2,10 @@
 // tells star identification how bright the stars are that it has to expect.
 #pragma once
 
+#include <span>
+
 #include "components/geometry/rig.hpp"
+#include "components/sensor/pixel_mask.hpp"
 
 namespace omma {
 
@@ -13,6 +16,7 @@ struct SkyCoverage {
 };
 
 /// Measured on the lenses themselves, on a grid of pixels (start-up only). Solid angles to about 1 %.
-SkyCoverage sky_coverage(const Rig& rig);
+/// @param masks  one a camera, or none at all: what is masked sees no sky; a mask of no image masks nothing
+SkyCoverage sky_coverage(const Rig& rig, std::span<const PixelMask> masks = {});
 
 }  // namespace omma

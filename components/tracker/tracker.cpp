@@ -6,11 +6,11 @@
 namespace omma {
 
 Tracker::Tracker(const TrackerParameters& parameters, const Rig& rig, const StarCatalogue& catalogue,
-                 std::span<const TargetBody> bodies)
+                 std::span<const TargetBody> bodies, std::span<const PixelMask> masks)
     : parameters_(parameters),
       rig_(rig),
       catalogue_(catalogue),
-      star_identification_(catalogue, sky_coverage(rig)),
+      star_identification_(catalogue, sky_coverage(rig, masks)),
       sky_prediction_(parameters.sky_angular_acceleration) {
   bodies_.reserve(bodies.size());
   for (const TargetBody& body : bodies) {

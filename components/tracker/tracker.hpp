@@ -39,8 +39,9 @@ inline constexpr std::array kTrackerCommands{kSearchAgain};
 class Tracker final : public Component, public CommandReceiver {
  public:
   /// @param catalogue  apparent places at the mission's epoch; outlives this, as do `rig` and `bodies`
+  /// @param masks      where the cameras are blind, as in sky_coverage
   Tracker(const TrackerParameters& parameters, const Rig& rig, const StarCatalogue& catalogue,
-          std::span<const TargetBody> bodies);
+          std::span<const TargetBody> bodies, std::span<const PixelMask> masks = {});
 
   In<DotLists> dots;
   Previous<AttitudeEstimate> attitude;  // of the frame set before: what the prediction is made of

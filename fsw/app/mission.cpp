@@ -11,6 +11,7 @@
 #include "components/extractor/extractor_tuning.hpp"
 #include "components/geometry/rig_file.hpp"
 #include "components/tracker/tracker_tuning.hpp"
+#include "fsw/app/camera_tables.hpp"
 #include "fsw/app/mission_imaging.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
@@ -52,13 +53,6 @@ void read_parameters(const TomlTable& table, Fields& fields) {
   });
 }
 
-ExtractorParameters read_extractor(const TomlTable& table) {
-  ExtractorParameters parameters;
-  read_parameters(table, parameters);
-  table.refuse_unknown_keys();
-  return parameters;
-}
-
 void read_driver(const TomlTable& table, const Lens& lens, double frame_rate_hz, CameraMission& camera) {
   camera.driver = table.text("driver");
   if (camera.driver == "recorded") {
@@ -92,8 +86,14 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, d
     seen[at] = true;
     CameraMission& camera = cameras[at];
     camera.driver = table.text("driver");
-    read_driver(table, rig.cameras[at].lens, frame_rate_hz, camera);
-    if (const auto extractor = table.table_if("extractor")) camera.extractor = read_extractor(*extractor);
+    const Lens& lens = rig.cameras[at].lens;
+    read_driver(table, lens, frame_rate_hz, camera);
+    camera.dots.width = lens.width();
+    camera.dots.height = lens.height();
+    camera.dots.parameters = read_extractor(table);
+    read_sensor(table, lens, camera.dots);
+    read_mask(table, lens, camera.dots);
+    camera.exposure = read_exposure(table);
     table.refuse_unknown_keys();
   }
   for (std::size_t c = 0; c < seen.size(); ++c) {

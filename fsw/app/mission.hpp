@@ -9,7 +9,8 @@
 
 #include "components/attitude/attitude.hpp"
 #include "components/catalogue/target.hpp"
-#include "components/extractor/extractor_parameters.hpp"
+#include "components/exposure/exposure_control.hpp"
+#include "components/extractor/camera_dots.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/pose/relative_pose.hpp"
@@ -27,7 +28,8 @@ struct CameraMission {
   std::string driver;  ///< "recorded", or one of live_drivers()
   int bits = 8;        ///< of a pixel of a recorded camera: the white level is 2^bits − 1
   CameraSetup setup;   ///< of a live camera
-  ExtractorParameters extractor;
+  ExtractorCamera dots;
+  ExposureParameters exposure;
 };
 
 struct Mission {

@@ -27,11 +27,20 @@ std::uint32_t beats_per_second(double rate_hz) {
 
 std::vector<ExtractorCamera> extractor_cameras(const Mission& mission) {
   std::vector<ExtractorCamera> cameras;
-  for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
-    const Lens& lens = mission.rig.cameras[c].lens;
-    cameras.push_back({lens.width(), lens.height(), mission.cameras[c].extractor});
-  }
+  for (const CameraMission& camera : mission.cameras) cameras.push_back(camera.dots);
   return cameras;
+}
+
+std::vector<ExposureParameters> exposure_parameters(const Mission& mission) {
+  std::vector<ExposureParameters> parameters;
+  for (const CameraMission& camera : mission.cameras) parameters.push_back(camera.exposure);
+  return parameters;
+}
+
+std::vector<PixelMask> masks(const Mission& mission) {
+  std::vector<PixelMask> all;
+  for (const CameraMission& camera : mission.cameras) all.push_back(camera.dots.mask);
+  return all;
 }
 
 std::optional<UtcNs> epoch(const Mission& mission) {
@@ -44,7 +53,7 @@ std::vector<ParameterEntry> parameter_entries(const Mission& mission) {
   std::vector<ExtractorParameters> extractors;
   for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
     names.emplace_back(mission.rig.cameras[c].name.view());
-    extractors.push_back(mission.cameras[c].extractor);
+    extractors.push_back(mission.cameras[c].dots.parameters);
   }
   std::vector<ParameterEntry> entries;
   add_entries(entries, extractors, names);
@@ -76,8 +85,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       parameters(parameter_entries(mission_), events),
       sync_trigger(trigger_line_.get(), events),
       cameras(drivers_.pointers(), events),
+      exposure(drivers_.pointers(), exposure_parameters(mission_), events),
       extractor(extractor_cameras(mission_), pool_),
-      tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies),
+      tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies, masks(mission_)),
       attitude(mission_.attitude),
       pose(mission_.pose),
       surveillance(mission_.surveillance, mission_.rig, catalogue_, mission_.tracker.floor_px),
@@ -118,6 +128,7 @@ void Topology::connect() {
   attitude.tuning.bind(parameters.committed);
   imaging.tuning.bind(parameters.committed);
   cameras.trigger.bind(sync_trigger.trigger);
+  exposure.frames.bind(cameras.frames);
   extractor.frames.bind(cameras.frames);
   tracker.dots.bind(extractor.dots);
   tracker.attitude.bind(attitude.estimate);
@@ -189,6 +200,7 @@ RateGroupTable Topology::table() {
                                  {parameters, microseconds(100)},
                                  {sync_trigger, microseconds(100)},
                                  {cameras, microseconds(2000)},
+                                 {exposure, microseconds(500)},
                                  {extractor, microseconds(10000), {}, pool_.workers(), kAttitudeModes},
                                  {tracker, microseconds(15000), overloaded, 1, kAttitudeModes},
                                  {attitude, microseconds(2000), {}, 1, kAttitudeModes},

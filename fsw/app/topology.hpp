@@ -10,6 +10,7 @@
 #include "components/camera/cameras.hpp"
 #include "components/camera/trigger_watch.hpp"
 #include "components/catalogue/star_catalogue.hpp"
+#include "components/exposure/exposure.hpp"
 #include "components/extractor/extractor.hpp"
 #include "components/housekeeping/housekeeping.hpp"
 #include "components/imaging/imaging.hpp"
@@ -81,6 +82,7 @@ class Topology {
   Parameters parameters;
   SyncTrigger sync_trigger;
   Cameras cameras;
+  Exposure exposure;
   Extractor extractor;
   Tracker tracker;
   Attitude attitude;

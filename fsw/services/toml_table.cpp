@@ -111,10 +111,24 @@ std::vector<double> TomlTable::numbers(std::string_view key, std::size_t count) 
   const std::string expected = "an array of " + std::to_string(count) + " numbers";
   if (!has(key)) throw error(key, expected, "nothing");
   const toml::node& node = *node_->table->get(key);
+  if (node.as_array() == nullptr || node.as_array()->size() != count) throw error(key, expected, shown(node));
+  return all_numbers(key, expected);
+}
+
+std::vector<double> TomlTable::number_list(std::string_view key, std::size_t group) const {
+  const std::string expected =
+      group == 1 ? "an array of numbers" : "an array of numbers, " + std::to_string(group) + " to each";
+  if (!has(key)) throw error(key, expected, "nothing");
+  const toml::node& node = *node_->table->get(key);
   const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != count) throw error(key, expected, shown(node));
+  if (array == nullptr || array->empty() || array->size() % group != 0)
+    throw error(key, expected, shown(node));
+  return all_numbers(key, expected);
+}
+
+std::vector<double> TomlTable::all_numbers(std::string_view key, const std::string& expected) const {
   std::vector<double> values;
-  for (const toml::node& item : *array) {
+  for (const toml::node& item : *node_->table->get(key)->as_array()) {
     const auto value = item.is_number() ? item.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value)) throw error(key, expected, shown(item) + " among them");
     values.push_back(*value);

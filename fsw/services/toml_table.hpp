@@ -34,6 +34,8 @@ class TomlTable {
   double number(std::string_view key, Range range = {}) const;  ///< an integer is a number too; never NaN
   std::int64_t integer(std::string_view key, Range range = {}) const;
   std::vector<double> numbers(std::string_view key, std::size_t count) const;  ///< exactly `count`
+  /// Any number of them, `group` at a time and one group at least.
+  std::vector<double> number_list(std::string_view key, std::size_t group = 1) const;
   TomlTable table(std::string_view key) const;
   std::vector<TomlTable> tables(std::string_view key) const;  ///< [[key]], at least one
 
@@ -65,6 +67,7 @@ class TomlTable {
   struct Node;  // hides the TOML library from those who include this file
   TomlTable(std::string file, std::string prefix, std::shared_ptr<const Node> node);
   const Node* find(std::string_view key) const;
+  std::vector<double> all_numbers(std::string_view key, const std::string& expected) const;
 
   std::string file_;
   std::string prefix_;  // "camera[1]."

@@ -47,7 +47,8 @@ int bench_extract_frames(const char* folder, int argc, char** argv) {
       auto list = std::make_unique<DotList>();
       ImageView view = image.view();
       view.white_level = static_cast<std::uint16_t>((1 << mission.cameras[c].bits) - 1);
-      times.push_back(microseconds([&] { extractor.extract(view, mission.cameras[c].extractor, *list); }));
+      times.push_back(
+          microseconds([&] { extractor.extract(view, mission.cameras[c].dots.parameters, *list); }));
       ++images;
       std::vector<bool> used(list->dots.size(), false);
       for (const ground::TruthSpot& spot : frame.spots) {

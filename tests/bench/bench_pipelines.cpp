@@ -11,6 +11,7 @@
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/pipeline_picture.hpp"
 
 namespace omma {
 namespace {
@@ -56,7 +57,8 @@ Extract classical(Pipeline&& pipeline) {
   };
 }
 
-void judge(const ShownFrame& frame, const Extract& extract, Row& row) {
+// Adds to the row, and to `marked` what became of each place.
+void judge(const ShownFrame& frame, const Extract& extract, Row& row, std::vector<MarkedPlace>& marked) {
   double us = 0;
   const std::vector<Eigen::Vector2d> places = extract(frame, us);
   row.times.push_back(us);
@@ -75,12 +77,30 @@ void judge(const ShownFrame& frame, const Extract& extract, Row& row) {
     if (spot.snr < kCounts || spot.kind == ground::TruthSpot::Kind::kMoon) continue;
     if (nearest < places.size()) {
       ++row.found;
+      marked.push_back({places[nearest], PanelMark::kFound});
       row.squared_error += least * least;
     } else {
       ++row.missed;
+      marked.push_back({spot.pixel, PanelMark::kMissed});
     }
   }
   row.false_dots += static_cast<int>(std::count(used.begin(), used.end(), false));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!used[i]) marked.push_back({places[i], PanelMark::kFalse});
+}
+
+// What a frame of its kind is shown about: the middle of the card, the Moon, the image.
+Eigen::Vector2d middle_of(const ShownFrame& frame, ground::TruthSpot::Kind kind) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  int count = 0;
+  for (const ground::TruthSpot& spot : frame.spots) {
+    if (spot.kind != kind) continue;
+    sum += spot.pixel;
+    ++count;
+  }
+  if (kind == ground::TruthSpot::Kind::kStar || count == 0)
+    return {0.5 * frame.image.width, 0.5 * frame.image.height};
+  return sum / count;
 }
 
 bool has(const std::vector<ground::TruthSpot>& spots, ground::TruthSpot::Kind kind) {
@@ -106,7 +126,12 @@ int bench_pipelines(int argc, char** argv) {
       {"stars (7)", classical([&](const ground::GreyImage& i) { return star_dots(i, {}, for_stars, {}); })},
   };
   const char* kinds[] = {"stars alone", "card and stars", "Moon and stars"};
+  using Kind = ground::TruthSpot::Kind;
+  constexpr Kind kShown[] = {Kind::kStar, Kind::kTarget, Kind::kMoon};
   Row rows[3][4];
+  const char* picture_file = text_option(argc, argv, "--picture", nullptr);
+  PipelinePicture picture(3, 4);
+  bool is_shown[3] = {};
   for (const ground::TruthFrame& at : truth) {
     if (at.frame % every != 0) continue;
     for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
@@ -116,15 +141,24 @@ int bench_pipelines(int argc, char** argv) {
       std::snprintf(file, sizeof file, "_%06d.png", static_cast<int>(at.frame));
       frame.image = read_image(folder / name / (name + file));
       frame.white_level = static_cast<std::uint16_t>((1 << mission.cameras[c].bits) - 1);
-      frame.parameters = mission.cameras[c].extractor;
+      frame.parameters = mission.cameras[c].dots.parameters;
       for (const ground::TruthSpot& spot : at.spots)
         if (spot.camera == static_cast<int>(c)) frame.spots.push_back(spot);
       const bool card = has(frame.spots, ground::TruthSpot::Kind::kTarget);
       const bool moon = has(frame.spots, ground::TruthSpot::Kind::kMoon);
-      for (std::size_t a = 0; a < std::size(algorithms); ++a) {
-        if (!card && !moon) judge(frame, algorithms[a].second, rows[0][a]);
-        if (card) judge(frame, algorithms[a].second, rows[1][a]);
-        if (moon) judge(frame, algorithms[a].second, rows[2][a]);
+      ImageView view = frame.image.view();
+      view.white_level = frame.white_level;
+      for (std::size_t k = 0; k < std::size(kinds); ++k) {
+        if (!(k == 0 ? !card && !moon : k == 1 ? card : moon)) continue;
+        for (std::size_t a = 0; a < std::size(algorithms); ++a) {
+          Panel panel{static_cast<int>(k),
+                      static_cast<int>(a),
+                      std::string(kinds[k]) + ": " + algorithms[a].first,
+                      {}};
+          judge(frame, algorithms[a].second, rows[k][a], panel.places);
+          if (picture_file != nullptr && !is_shown[k]) picture.put(panel, view, middle_of(frame, kShown[k]));
+        }
+        is_shown[k] = true;
       }
     }
   }
@@ -142,6 +176,7 @@ int bench_pipelines(int argc, char** argv) {
                   1e-3 * quantile(row.times, 0.5));
     }
   }
+  if (picture_file != nullptr) picture.write(picture_file);
   return 0;
 }
 

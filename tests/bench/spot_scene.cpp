@@ -14,9 +14,9 @@ struct Share {
   double value, slope;
 };
 
-Share share(double x, double u, double sigma) {
-  const double a = (x - 0.5 - u) / sigma;
-  const double b = (x + 0.5 - u) / sigma;
+Share share(double x, double u, double sigma, double aperture) {
+  const double a = (x - 0.5 * aperture - u) / sigma;
+  const double b = (x + 0.5 * aperture - u) / sigma;
   const auto density = [](double z) { return std::exp(-0.5 * z * z) / std::sqrt(2 * M_PI); };
   return {0.5 * (std::erf(b / M_SQRT2) - std::erf(a / M_SQRT2)), (density(a) - density(b)) / sigma};
 }
@@ -34,7 +34,8 @@ void for_pixels(const SpotScene& scene, const MadeSpot& spot, Visit&& visit) {
     for (int k = 0; k < pieces; ++k) {
       const double place = spot.pixel[axis] + spot.trail[axis] * ((k + 0.5) / pieces - 0.5);
       for (int x = middle - radius; x <= middle + radius; ++x)
-        of_piece[static_cast<std::size_t>(k)].push_back(share(x, place, spot.sigma));
+        of_piece[static_cast<std::size_t>(k)].push_back(
+            share(x, place, spot.sigma, std::sqrt(scene.fill_factor)));
     }
     return of_piece;
   };

@@ -29,9 +29,11 @@ struct SpotScene {
   int height = 768;
   int white_level = 255;  ///< above 255 the image has 16 bits
   double background = 20;
-  double slope = 0;   ///< of the background along u [grey levels per pixel]
-  double noise = 2;   ///< standard deviation of a pixel of the background [grey levels]
-  double gain = 0;    ///< electrons per grey level; 0: the spots bring no noise of their own
+  double slope = 0;  ///< of the background along u [grey levels per pixel]
+  double noise = 2;  ///< standard deviation of a pixel of the background [grey levels]
+  double gain = 0;   ///< electrons per grey level; 0: the spots bring no noise of their own
+  double fill_factor =
+      1;  ///< part of a pixel's area that takes light, a square in its middle; light beside it is lost
   bool dark = false;  ///< the image is turned: dark spots on light ground
   std::vector<MadeSpot> spots;
 };

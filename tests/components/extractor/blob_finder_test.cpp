@@ -44,6 +44,7 @@ std::multiset<std::vector<int>> by_flood_fill(Picture picture) {
 std::multiset<std::vector<int>> by_runs(const Picture& picture) {
   std::multiset<std::vector<int>> blobs;
   BlobFinder finder(kWidth);
+  const std::vector<std::uint8_t> ones(kWidth, 1);
   const auto sink = [&](const Blob& b) { blobs.insert({b.area, b.left, b.right, b.top, b.bottom}); };
   finder.start();
   for (int v = 0; v < kHeight; ++v) {
@@ -53,7 +54,7 @@ std::multiset<std::vector<int>> by_runs(const Picture& picture) {
       int last = u;
       while (last + 1 < kWidth && picture[v][last + 1]) ++last;
       Blob& blob = finder.add_run(u, last, v);
-      for (int x = u; x <= last; ++x) blob.add(1, x, v);
+      blob.add_row(ones.data(), u, last, v, 255, false);
       u = last;
     }
     finder.end_row(v, sink);

@@ -1,0 +1,65 @@
+#include "tests/bench/pipeline_picture.hpp"
+
+#include <algorithm>
+
+#include "ground/draw/canvas.hpp"
+#include "ground/draw/stretch.hpp"
+
+namespace omma {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240, kTitle = 18;  // of a panel [px]
+
+ground::Colour colour_of(PanelMark mark) {
+  if (mark == PanelMark::kFound) return {0.2, 1, 0.3, 1};
+  if (mark == PanelMark::kMissed) return {1, 0.9, 0.1, 1};
+  return {1, 0.2, 0.2, 1};
+}
+
+}  // namespace
+
+void PipelinePicture::put(const Panel& panel, const ImageView& image, const Eigen::Vector2d& middle) {
+  const ground::GreyPicture picture = ground::stretched(image, ground::night_sky_stretch(image));
+  Filled filled{panel, {}, {}};
+  const int left =
+      std::clamp(static_cast<int>(middle.x()) - kWidth / 2, 0, std::max(0, image.width - kWidth));
+  const int top =
+      std::clamp(static_cast<int>(middle.y()) - kHeight / 2, 0, std::max(0, image.height - kHeight));
+  filled.corner = Eigen::Vector2d(left, top);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const bool there = left + u < picture.width && top + v < picture.height;
+      filled.pixels.push_back(
+          there ? picture.pixels[static_cast<std::size_t>((top + v) * picture.width + left + u)] : 0);
+    }
+  }
+  panels_.push_back(filled);
+}
+
+void PipelinePicture::write(const std::string& path) const {
+  ground::GreyPicture all;
+  all.width = columns_ * kWidth;
+  all.height = rows_ * (kHeight + kTitle);
+  all.pixels.resize(static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height));
+  for (const Filled& filled : panels_) {
+    for (int v = 0; v < kHeight; ++v) {
+      const int row = filled.panel.row * (kHeight + kTitle) + kTitle + v;
+      std::copy_n(filled.pixels.begin() + std::ptrdiff_t{v} * kWidth, kWidth,
+                  all.pixels.begin() + std::ptrdiff_t{row} * all.width + filled.panel.column * kWidth);
+    }
+  }
+  ground::Canvas canvas(all);
+  for (const Filled& filled : panels_) {
+    const Eigen::Vector2d corner(filled.panel.column * kWidth,
+                                 filled.panel.row * (kHeight + kTitle) + kTitle);
+    for (const MarkedPlace& place : filled.panel.places) {
+      const Eigen::Vector2d at = place.pixel - filled.corner;
+      if (at.x() < 6 || at.y() < 6 || at.x() > kWidth - 6 || at.y() > kHeight - 6) continue;
+      canvas.circle(corner + at, 5, colour_of(place.mark), 1);
+    }
+    canvas.text(corner + Eigen::Vector2d(5, -5), filled.panel.title, 12, {1, 1, 1, 1});
+  }
+  canvas.write_png(path);
+}
+
+}  // namespace omma

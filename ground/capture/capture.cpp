@@ -70,6 +70,11 @@ class Recorder {
   std::uint64_t bytes() const { return folder_ ? folder_->bytes() : 0; }
   const std::string& failure() const { return failure_; }
   const GreyShape& shape() const { return camera_->shape(); }
+  /// Frames taken a second, by the device's stamps.
+  double rate_hz() const {
+    const double stamped = static_cast<double>(elapsed(first_stamp_ns_, last_stamp_ns_)) * 1e-9;
+    return stamped > 0 ? static_cast<double>(taken() - 1) / stamped : 0;
+  }
   double seconds() const { return std::chrono::duration<double>(last_ - first_).count(); }
   /// The newest image, where one is asked for.
   void view(bool on) { view_.store(on); }
@@ -101,7 +106,11 @@ class Recorder {
     const std::uint64_t number = numbers_.number(frame.time_ns, frame.sequence);
     if (folder_) folder_->write(number, frame);
     last_ = Clock::now();
-    if (taken_.load() == 0) first_ = last_;
+    last_stamp_ns_ = frame.time_ns;
+    if (taken_.load() == 0) {
+      first_ = last_;
+      first_stamp_ns_ = frame.time_ns;
+    }
     taken_.fetch_add(1);
     if (view_.exchange(false)) {
       std::string text = half_blocks(frame.image, columns_, rows_);
@@ -116,6 +125,7 @@ class Recorder {
   std::unique_ptr<FrameFolder> folder_;
   std::unique_ptr<LiveCamera> camera_;
   Clock::time_point first_{}, last_{};
+  TimeNs first_stamp_ns_ = 0, last_stamp_ns_ = 0;
   std::atomic<std::uint64_t> taken_{0};
   std::atomic<bool> stop_{false};
   std::atomic<bool> done_{false};
@@ -175,13 +185,12 @@ bool print_result(const Recorders& recorders) {
   double longest = 0;
   for (const Recorder& recorder : recorders) {
     const CameraHealth health = recorder.health();
-    const double rate =
-        recorder.seconds() > 0 ? static_cast<double>(recorder.taken() - 1) / recorder.seconds() : 0;
     std::printf(
         "%s: %llu frames of %d x %d px at %.2f Hz; lost: %u gaps, %u damaged, %u without room; "
         "%u times gone\n",
         recorder.name().c_str(), static_cast<unsigned long long>(recorder.taken()), recorder.shape().width,
-        recorder.shape().height, rate, health.gaps, health.damaged, health.overrun, health.losses);
+        recorder.shape().height, recorder.rate_hz(), health.gaps, health.damaged, health.overrun,
+        health.losses);
     if (!recorder.failure().empty()) std::fprintf(stderr, "omma: %s\n", recorder.failure().c_str());
     complete = complete && recorder.failure().empty() && recorder.taken() > 0 &&
                health.gaps + health.damaged + health.overrun + health.losses == 0;

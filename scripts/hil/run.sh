@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/hil/run.sh [drivers|lines|lab|flight]...: `./test hil`. Makes the machine where there is none, then every part of the
+# scripts/hil/run.sh [drivers|libcamera|lines|lab|flight]...: `./test hil`. Makes the machine where there is none, then every part of the
 # test in a machine of its own. A part NAME is NAME.sh, which runs inside, and NAME.after.sh where there is one, which
 # judges on this side what it wrote into build/hil/NAME. Skipped with a sentence where it cannot be done.
 set -uo pipefail
@@ -9,7 +9,7 @@ command -v qemu-system-x86_64 >/dev/null || skip "no qemu-system-x86_64 here"
 [ "$(dpkg --print-architecture)" = amd64 ] || skip "the machine is made for amd64"
 scripts/hil/kernel.sh > build/hil.kernel.log 2>&1 || skip "the kernel cannot be had ($(tail -1 build/hil.kernel.log))"
 failed=0
-[ $# -gt 0 ] || set -- drivers lines lab flight
+[ $# -gt 0 ] || set -- drivers libcamera lines lab flight
 for part; do
   OUTPUT=$PWD/build/hil/$part
   rm -rf "$OUTPUT"

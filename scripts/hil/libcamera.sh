@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# scripts/hil/libcamera.sh: runs inside the machine (machine.sh). libcamera over two of the kernel's virtual cameras
+# (vimc) at once: streams, controls, refusals. No udevd runs here: libcamera wants an initialised entry of
+# its database for each device. Its scaler makes widths that are multiples of three.
+set -uo pipefail
+source scripts/hil/checks.sh
+FRAMES=${FRAMES:-150}
+[ -f build/release/bin/omma-libcamera.so ] || { echo "libcamera was not installed when this was built; not tested"; exit 0; }
+
+modprobe vimc n_devs=2
+mkdir -p /run/udev/data
+touch /run/udev/control
+for device in /sys/class/video4linux/* /sys/bus/media/devices/*; do echo I:1 > "/run/udev/data/c$(cat "$device/dev")"; done
+export LIBCAMERA_LOG_LEVELS='*:ERROR'
+$OMMA cameras > /tmp/said 2>&1
+readarray -t IDS <<< "$(sed -n 's/.*driver = "libcamera", device = "\(.*\)"/\1/p' /tmp/said)"
+[ ${#IDS[@]} = 2 ] && says 'processed RGB3' && says 'control Brightness'
+check $? "libcamera: ${#IDS[@]} cameras listed, with streams and controls"
+timeout 200 $OMMA capture --camera "left=libcamera:${IDS[0]}" --camera "right=libcamera:${IDS[1]}" --format RGB3 \
+  --size 318x240 --frames "$FRAMES" --set Brightness=0.5 > /tmp/said 2>&1
+check $? "$(grep '^left' /tmp/said)"
+grep -q "^right: $FRAMES frames" /tmp/said
+check $? "$(grep '^right' /tmp/said)"
+LC=(--camera "cam0=libcamera:${IDS[0]}" --format RGB3)
+refused "libcamera: a camera it does not know" "device: expected a camera of libcamera's" --camera cam0=libcamera:none --format RGB3
+refused "libcamera: a size it does not have" "format: expected RGB3 of 320 x 240 px" "${LC[@]}" --size 320x240
+refused "libcamera: a control it does not have" "controls.zoom: expected one of" "${LC[@]}" --size 318x240 --set zoom=1
+refused "libcamera: a value out of range" "controls.Brightness: expected" "${LC[@]}" --size 318x240 --set Brightness=7
+exit $failed

@@ -65,11 +65,17 @@ class Chain {
   }
   DotLists& dots() { return *dots_; }
   void step() {
-    const RealTimeScope scope;
-    tracking_us.push_back(microseconds([&] { tracker_.step(Tick{}); }));
-    attitude_.step(Tick{});
-    pose_.step(Tick{});
-    surveillance_us.push_back(microseconds([&] { surveillance_.step(Tick{}); }));
+    double tracking = 0;
+    double surveillance = 0;
+    {
+      const RealTimeScope scope;
+      tracking = microseconds([&] { tracker_.step(Tick{}); });
+      attitude_.step(Tick{});
+      pose_.step(Tick{});
+      surveillance = microseconds([&] { surveillance_.step(Tick{}); });
+    }
+    tracking_us.push_back(tracking);
+    surveillance_us.push_back(surveillance);
   }
   const Pairings& pairings() const { return *tracker_.pairings; }
   const AttitudeEstimate& attitude() const { return *attitude_.estimate; }
@@ -287,7 +293,7 @@ int bench_long_flight(const Stage& stage, int minutes) {
                   100.0 * named[b] / to_name[b]);
   }
   std::printf(
-      "\n  objects      %9d sightings of moving ones, false %d, identity switches %d, given another number "
+      "\n  objects      %9d sightings of moving ones, %d of none, identity switches %d, given another number "
       "after a gap %d; hot pixels told as such in %.1f a frame set\n",
       objects.seen, objects.false_objects, objects.switches, objects.renumbered,
       static_cast<double>(hot_pixels) / frames);

@@ -9,26 +9,26 @@ namespace {
 constexpr int kStillOneIn = 5;
 constexpr float kMoved = 4;  // [px]
 
-ExtractorParameters with_sensor(const ExtractorCamera& camera, const FrameCorrection& correction) {
-  ExtractorParameters parameters = camera.parameters;
-  if (!camera.sensor.black.empty()) parameters.black_level = static_cast<float>(correction.black_level());
-  return parameters;
-}
-
 }  // namespace
 
 CameraDots::CameraDots(const ExtractorCamera& camera)
-    : correction_(camera.width, camera.height, camera.sensor),
+    : has_black_frame_(!camera.sensor.black.empty()),
+      correction_(camera.width, camera.height, camera.sensor),
       mask_(camera.mask),
       has_mask_(camera.mask.any()),
       illumination_(camera.illumination),
       extractor_(camera.width, camera.height),
       level_row_(static_cast<std::size_t>(camera.width)) {
-  parameters_ = with_sensor(camera, correction_);
+  tune(camera.parameters);
   if (!camera.glare) return;
   glare_.emplace(camera.width, camera.height, *camera.glare);
   mask_now_ = PixelMask(camera.width, camera.height);
   if (mask_.width() == 0) mask_ = mask_now_;
+}
+
+void CameraDots::tune(const ExtractorParameters& parameters) noexcept {
+  parameters_ = parameters;
+  if (has_black_frame_) parameters_.black_level = static_cast<float>(correction_.black_level());
 }
 
 const PixelMask* CameraDots::masked(const ImageView& image) noexcept {

@@ -29,6 +29,9 @@ class CameraDots {
   void find(const ImageView& raw, DotList& list) noexcept;
 
   const FrameCorrection& correction() const { return correction_; }
+  const ExtractorParameters& parameters() const { return parameters_; }
+  /// From the next frame on; the black level of a camera with a black frame stays that frame's.
+  void tune(const ExtractorParameters& parameters) noexcept;
 
  private:
   const PixelMask* masked(const ImageView& image) noexcept;
@@ -36,6 +39,7 @@ class CameraDots {
   bool sky_has_moved(const DotList& list) noexcept;
 
   ExtractorParameters parameters_;
+  bool has_black_frame_;
   FrameCorrection correction_;
   PixelMask mask_;
   bool has_mask_;

@@ -16,8 +16,7 @@ void Extractor::visit_ports(PortVisitor& visitor) const {
 }
 
 void Extractor::step(const Tick& /*tick*/) noexcept {
-  if (tuning.has_news())
-    for (std::size_t c = 0; c < parameters_.size(); ++c) take_parameters(*tuning, parameters_[c], c);
+  if (tuning.has_news()) take_news();
   dots->frame = frames->number;
   dots->time_ns = frames->trigger_time_ns;
   pool_.run(static_cast<int>(cameras_.size()),
@@ -25,6 +24,14 @@ void Extractor::step(const Tick& /*tick*/) noexcept {
   // The frame set's time is that of its fresh frames; all cameras expose on one trigger.
   for (const DotList& list : dots->cameras) {
     if (list.status == FrameStatus::kFresh) dots->time_ns = list.time_ns;
+  }
+}
+
+void Extractor::take_news() noexcept {
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    ExtractorParameters parameters = cameras_[c]->parameters();
+    take_parameters(*tuning, parameters, c);
+    cameras_[c]->tune(parameters);
   }
 }
 

@@ -33,6 +33,7 @@ class Extractor final : public Component {
   void skipped(const Tick& tick) noexcept override;
 
  private:
+  void take_news() noexcept;
   void extract_camera(std::size_t camera) noexcept;
 
   WorkerPool& pool_;

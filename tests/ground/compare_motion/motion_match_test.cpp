@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "ground/experiment/earth_fixed.hpp"
 #include "ground/compare_motion/motion_match.hpp"
+#include "ground/experiment/earth_fixed.hpp"
 
 namespace omma::ground {
 namespace {

@@ -107,7 +107,7 @@ TEST_F(ExportCompare, SampleWithoutElementsKeepsItsRow) {
   const CsvTable table(schema, "omma::CameraDots", "omma.idl");
   const std::optional<std::string> rows = table.rows(cdr.write(TopicId::kDots, &sample));
   ASSERT_TRUE(rows);
-  EXPECT_EQ(*rows, "5,0,0,false,0,,,,,,,,,,,,,,\n");
+  EXPECT_EQ(*rows, "5,0,0,false,0,,,,,,,,,,,,,,,,\n");
 }
 
 TEST_F(ExportCompare, BytesCutOffAnywhereGiveNoRow) {

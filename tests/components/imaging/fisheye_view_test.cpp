@@ -43,7 +43,8 @@ TEST(FisheyeView, ShowsHalfTheSkyAboutADirection) {
       ASSERT_NEAR(grey, companded(smooth_sky(j2000_from_view * ray), 0.25), 2) << u << ", " << v;
       Eigen::Vector2d pixel;
       ASSERT_TRUE(view.project(ray, pixel));
-      ASSERT_LT((pixel - Eigen::Vector2d(u, v)).norm(), 1e-9);
+      ASSERT_LT((pixel - Eigen::Vector2d(u, v)).norm(),
+                1e-7);  // near the centre an arc cosine has half its digits
     }
   }
   EXPECT_GT(seen, 9000);

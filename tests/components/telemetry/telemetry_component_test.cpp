@@ -63,6 +63,7 @@ class VisionChain final : public Component {
     visitor.output("pairings", pairings);
     visitor.output("attitude", attitude);
     visitor.output("poses", poses);
+    visitor.output("objects", objects);
     visitor.output("image", image);
     visitor.output("health", health);
     visitor.output("timing", timing);

@@ -28,8 +28,8 @@ TEST(LinuxWatchdog, RefusesWhatIsNoWatchdogInASentence) {
   EXPECT_EQ(
       refusal("/nowhere/watchdog", 10),
       "/nowhere/watchdog: watchdog: expected a device that can be opened, found No such file or directory");
-  EXPECT_EQ(refusal("/dev/null", 10),
-            "/dev/null: watchdog: expected a watchdog device, found Inappropriate ioctl for device");
+  // What the device is instead is the kernel's to say: an emulator says it in other words.
+  EXPECT_EQ(refusal("/dev/null", 10).rfind("/dev/null: watchdog: expected a watchdog device, found ", 0), 0U);
 }
 
 class RealWatchdog : public ::testing::Test {

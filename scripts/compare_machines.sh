@@ -16,7 +16,9 @@ fly() { # LOG FRAME_SETS PROGRAM...
 say "The demo on this machine and on an emulated $machine: $sets frame sets"
 fly $out/native.mcap "$sets" build/release/bin/omma-fsw
 fly $out/$machine.mcap "$sets" $emulated
-cmp $out/native.mcap $out/$machine.mcap && echo "the recordings are the same bytes ($(stat -c%s $out/$machine.mcap))"
+cmp $out/native.mcap $out/$machine.mcap ||
+  { build/release/bin/omma compare $out/native.mcap $out/$machine.mcap; exit 1; }
+echo "the recordings are the same bytes ($(stat -c%s $out/$machine.mcap))"
 
 say "Instructions"
 gcc -shared -fPIC -O2 -o build/$machine/instructions.so scripts/instructions.c

@@ -28,6 +28,13 @@ TEST(Chance, ChiSquareTailOfManyDegreesNeitherOverflowsNorVanishes) {
   EXPECT_EQ(chi_square_tail(-1, 4), 1.0);
 }
 
+TEST(Chance, OneDegreeOfFreedomIsTheErrorFunctionOverAllItsRange) {
+  for (double y = 1e-6; y < 650; y *= 1.03) {
+    const double expected = std::erfc(std::sqrt(y));
+    EXPECT_NEAR(chi_square_tail(2 * y, 1), expected, 1e-12 * expected) << y;
+  }
+}
+
 TEST(Chance, TwoSidedSigmasInvertTheNormalTail) {
   EXPECT_NEAR(two_sided_sigmas(0.317310508), 1.0, 1e-7);
   EXPECT_NEAR(two_sided_sigmas(0.05), 1.959963985, 1e-8);

@@ -13,11 +13,11 @@ constexpr std::chrono::milliseconds kPeriod{20};
 
 }  // namespace
 
-FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, Events& events,
+FlightRecords::FlightRecords(const RateGroupTable& table, bool lockstep, int workers, Events& events,
                              const FlightRecordFiles& files)
     : trace_at_end_(!files.trace.empty()),
       lockstep_(lockstep),
-      recorder_(table, lockstep),
+      recorder_(table, lockstep, workers),
       trace_(trace_at_end_ ? files.trace : kDefaultTrace,
              trace_at_end_ ? SlipDumps::kWritten : SlipDumps::kNone, recorder_, events, kEvents),
       events_(events),

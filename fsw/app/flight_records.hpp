@@ -44,7 +44,8 @@ class FlightRecords final : public CommandReceiver {
   static constexpr const char* kDefaultTrace = "omma-fsw.trace.json";  // in the working directory
 
   /// @throws std::runtime_error, a sentence, where a file that was named cannot be written
-  FlightRecords(const RateGroupTable& table, bool lockstep, Events& events, const FlightRecordFiles& files);
+  FlightRecords(const RateGroupTable& table, bool lockstep, int workers, Events& events,
+                const FlightRecordFiles& files);
 
   /// To be told by the scheduler.
   FlightRecorder& recorder() { return recorder_; }

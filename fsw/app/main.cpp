@@ -4,95 +4,49 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
-#include <memory>
-#include <random>
 #include <string>
 
-#include "components/telemetry/dds_sink.hpp"
-#include "components/telemetry/log_sink.hpp"
-#include "components/telemetry/telemetry_output.hpp"
-#include "fsw/app/attendant.hpp"
-#include "fsw/app/flight_records.hpp"
-#include "fsw/app/lifeline.hpp"
+#include "fsw/app/flight.hpp"
 #include "fsw/app/mission.hpp"
 #include "fsw/app/program_dictionary.hpp"
-#include "fsw/app/run_summary.hpp"
 #include "fsw/app/topology.hpp"
-#include "fsw/app/uplink.hpp"
-#include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/schedulability.hpp"
-#include "fsw/kernel/schedule_observers.hpp"
-#include "fsw/kernel/scheduler.hpp"
-#include "fsw/services/schedule_events.hpp"
-#include "hal/linux_watchdog/linux_watchdog.hpp"
 
 namespace {
 
 struct Arguments {
   std::string mission;
-  std::string frames;
-  std::string log;
-  std::string trace;
-  std::string commands;
-  std::string parameters;
-  std::string events;
-  std::string watchdog;
-  int watchdog_timeout_s = 10;
-  std::uint64_t frame_sets = 0;
-  int workers = 1;
-  bool real_time = false;
-  bool no_dds = false;
+  omma::FlightOptions flight;
   bool graph = false;
   bool dictionary = false;
   bool schedule = false;
-  int rounds = 1;
 };
 
-omma::Scheduler* running = nullptr;
-omma::FlightRecords* recording = nullptr;
-omma::Motion* moving = nullptr;
+omma::Flight* flying = nullptr;
 
-extern "C" void stop_running(int /*signal*/) {
-  if (running != nullptr) running->stop();
+extern "C" void stop_flying(int /*signal*/) {
+  if (flying != nullptr) flying->stop();
 }
 
 extern "C" void write_trace(int /*signal*/) {
-  if (recording != nullptr) recording->trace().request();
+  if (flying != nullptr) flying->write_trace();
 }
 
 extern "C" void stop_moving(int /*signal*/) {
-  if (moving != nullptr) moving->emergency_stop();
+  if (flying != nullptr) flying->stop_moving();
 }
 
-/// What was raised until now is not lost with the program.
 extern "C" void end_badly(int signal) {
   std::signal(signal, SIG_DFL);
-  if (recording != nullptr) recording->save_events(signal);
+  if (flying != nullptr) flying->save_events(signal);
   std::raise(signal);
-}
-
-void say(const std::vector<std::string>& sentences) {
-  for (const std::string& sentence : sentences) std::fprintf(stderr, "omma-fsw: %s\n", sentence.c_str());
-}
-
-void add_sinks(const Arguments& arguments, const omma::Mission& mission, omma::TelemetryOutput& output) {
-  const std::string_view spacecraft = mission.spacecraft.view();
-  if (!arguments.log.empty())
-    output.add(std::make_unique<omma::telemetry::LogSink>(arguments.log, spacecraft, true));
-  if (arguments.no_dds) return;
-  try {
-    output.add(std::make_unique<omma::telemetry::DdsSink>(spacecraft, mission.dds_domain));
-  } catch (const std::runtime_error& error) {
-    say({std::string(error.what()) + "; flying on without"});
-  }
 }
 
 /// The wiring as a picture, the schedule as a table, or all that the program sends as JSON: from the
 /// declarations it flies by.
 int describe(const Arguments& arguments) {
   omma::Topology topology(omma::read_mission(arguments.mission),
-                          {.workers = arguments.workers, .with_cameras = false});
+                          {.workers = arguments.flight.workers, .with_cameras = false});
   const omma::RateGroupTable table = topology.table();
   const std::string text = arguments.graph      ? omma::program_graph(table)
                            : arguments.schedule ? omma::schedule_text(table, omma::processors_here())
@@ -101,87 +55,16 @@ int describe(const Arguments& arguments) {
 }
 
 int fly(const Arguments& arguments) {
-  omma::Mission mission = omma::read_mission(arguments.mission);
-  if (!arguments.frames.empty()) mission.recording = arguments.frames;
-  const bool real_time = arguments.real_time || omma::has_live_cameras(mission) ||
-                         omma::has_trigger_line(mission) || omma::has_servo_board(mission);
-  omma::Topology topology(mission, {.lockstep = !real_time,
-                                    .workers = arguments.workers,
-                                    .rounds = arguments.rounds,
-                                    .session = real_time ? std::random_device{}() : 0U});
-  const omma::RateGroupTable table = topology.table();
-  omma::Uplink uplink(topology, {.script = arguments.commands,
-                                 .parameters = arguments.parameters,
-                                 .live = real_time && !arguments.no_dds});
-  say(uplink.sentences());
-
-  omma::LockstepClock lockstep;
-  omma::MonotonicClock monotonic;
-  omma::Clock& clock = real_time ? static_cast<omma::Clock&>(monotonic) : lockstep;
-  omma::ScheduleEvents schedule_events(topology.events, &topology.mode_keeper);
-  omma::FlightRecords records(table, clock.lockstep(), topology.events,
-                              {.trace = arguments.trace, .events = arguments.events});
-  say(records.notices());
-  topology.commander.bind(omma::kFlightRecordCommands, records);
-  if (const auto unbound = topology.commander.unbound(omma::kCommands); !unbound.empty())
-    throw std::logic_error(unbound.front());
-  omma::telemetry::FrameStages stages(table, topology.stage_ends(), clock.lockstep());
-  omma::ScheduleObservers observers{&schedule_events, &records.recorder(), &stages};
-  omma::Scheduler scheduler(table, clock, observers);
-  topology.health.observe(scheduler);
-  topology.telemetry.time_frames(stages);
-  topology.telemetry.tell_earlier(records.earlier());
-  omma::TelemetryOutput output(topology.telemetry, {omma::kEvents.begin(), omma::kEvents.end()},
-                               topology.vocabulary());
-  output.judge_latency(topology.latency_budgets(), clock.lockstep() ? nullptr : &topology.events);
-  add_sinks(arguments, mission, output);
-  lockstep.before_each_tick([&] {
-    output.wait_for_room();
-    uplink.save();
-  });
-  if (real_time) say(omma::lock_process_memory());
-  // Opening arms it: last, so that a program that cannot start is no reason for a reset.
-  std::unique_ptr<omma::Watchdog> watchdog;
-  if (!arguments.watchdog.empty())
-    watchdog = std::make_unique<omma::LinuxWatchdog>(arguments.watchdog, arguments.watchdog_timeout_s);
-  omma::Lifeline lifeline(scheduler, topology.events, std::move(watchdog),
-                          omma::ServiceNotice::from_environment(), clock.lockstep());
-  output.start();
-  records.add_chore([&topology] { topology.utc.ask_system(); });
-  records.start();
-  if (real_time) say(uplink.start(table));
-
-  omma::Attendant attendant;
-  if (topology.servo() != nullptr) attendant.add([&servo = *topology.servo()] { servo.attend(); });
-  if (topology.trigger_line() != nullptr)
-    attendant.add([&line = *topology.trigger_line()] { line.attend(); });
-  attendant.start();
-  moving = topology.motion ? &*topology.motion : nullptr;
-  running = &scheduler;
-  recording = &records;
-  std::signal(SIGINT, stop_running);
-  std::signal(SIGTERM, stop_running);
+  omma::Flight flight(omma::read_mission(arguments.mission), arguments.flight);
+  flying = &flight;
+  std::signal(SIGINT, stop_flying);
+  std::signal(SIGTERM, stop_flying);
   std::signal(SIGUSR1, write_trace);
   std::signal(SIGUSR2, stop_moving);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT}) std::signal(signal, end_badly);
-  lifeline.start();
-  scheduler.run(topology.ticks(arguments.frame_sets > 0 ? arguments.frame_sets : topology.frame_sets()));
-  running = nullptr;
-  const std::string armed = lifeline.stop();
-  recording = nullptr;
-  moving = nullptr;
-  attendant.stop();
-  say(uplink.stop());
-  output.stop();
-
-  say(topology.refusals());
-  say(scheduler.refusals());
-  if (topology.servo() != nullptr) say(topology.servo()->complaints());
-  if (topology.trigger_line() != nullptr) say(topology.trigger_line()->complaints());
-  say(output.failures());
-  if (!armed.empty()) say({armed});
-  say(records.stop());
-  std::fputs(omma::run_summary(scheduler).c_str(), stdout);
+  flight.run();
+  flying = nullptr;
+  std::fputs(flight.summary().c_str(), stdout);
   return 0;
 }
 
@@ -192,33 +75,34 @@ int main(int argc, char** argv) {
       "Omma flight software: attitude, relative pose and sky pictures from the cameras of a mission."};
   Arguments arguments;
   app.add_option("mission", arguments.mission, "mission file (TOML)")->required();
-  app.add_option("--frames", arguments.frames,
+  app.add_option("--frames", arguments.flight.frames,
                  "folder of recorded frames, <camera>/<camera>_<number>.png; default: the mission's");
-  app.add_option("--frame-sets", arguments.frame_sets, "stop after so many; default: when the frames end");
-  app.add_option("--log", arguments.log,
+  app.add_option("--frame-sets", arguments.flight.frame_sets,
+                 "stop after so many; default: when the frames end");
+  app.add_option("--log", arguments.flight.log,
                  "file (MCAP) for all telemetry; measured durations go to a second one beside it");
   app.add_option(
-      "--trace", arguments.trace,
+      "--trace", arguments.flight.trace,
       "file (JSON, for ui.perfetto.dev) for the flight recorder: written at the end and on SIGUSR1; "
       "slips have files beside it");
-  app.add_option("--commands", arguments.commands,
+  app.add_option("--commands", arguments.flight.commands,
                  "file of commands, one a line: number of a frame set, command, values");
-  app.add_option("--parameters", arguments.parameters,
+  app.add_option("--parameters", arguments.flight.parameters,
                  "folder of saved parameters: they override the mission's, and commits are saved there");
-  app.add_option("--events", arguments.events,
+  app.add_option("--events", arguments.flight.events,
                  "file of the event store: events survive in it to the next start, which tells them again");
   app.add_option(
-      "--watchdog", arguments.watchdog,
+      "--watchdog", arguments.flight.watchdog,
       "watchdog device (/dev/watchdog), stroked while the critical rate groups meet their deadlines");
-  app.add_option("--watchdog-timeout", arguments.watchdog_timeout_s, "of the watchdog [s]")
+  app.add_option("--watchdog-timeout", arguments.flight.watchdog_timeout_s, "of the watchdog [s]")
       ->check(CLI::Range(1, 3600));
-  app.add_flag("--no-dds", arguments.no_dds, "publish nothing, take no commands from the ground");
-  app.add_option("--workers", arguments.workers, "threads that share the extraction")
+  app.add_flag("--no-dds", arguments.flight.no_dds, "publish nothing, take no commands from the ground");
+  app.add_option("--workers", arguments.flight.workers, "threads that share the extraction")
       ->check(CLI::Range(1, 16));
-  app.add_flag("--real-time", arguments.real_time,
+  app.add_flag("--real-time", arguments.flight.real_time,
                "keep the mission's frame rate, as live cameras always do; default: as fast as possible, the "
                "same every time");
-  app.add_option("--rounds", arguments.rounds, "play the recording so many times, one after the other")
+  app.add_option("--rounds", arguments.flight.rounds, "play the recording so many times, one after the other")
       ->check(CLI::Range(1, 100000));
   CLI::Option* graph =
       app.add_flag("--graph", arguments.graph, "print the wiring and the modes (Graphviz) and leave");

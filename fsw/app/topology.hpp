@@ -61,6 +61,8 @@ class Topology {
   telemetry::PerStage<> latency_budgets();
   /// Real-time privileges that the threads sharing the extraction were not granted.
   const Refusals& refusals() const { return pool_.refusals(); }
+  /// Told of the jobs of those threads, and of the caller's, from now on.
+  void observe_jobs(JobObserver& observer) noexcept { pool_.observe(observer); }
   /// The words of the commands it takes; valid as long as this.
   CommandVocabulary vocabulary() const;
   /// CameraDrivers::frame_sets

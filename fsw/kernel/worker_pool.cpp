@@ -9,6 +9,7 @@
 #include <latch>
 #include <mutex>
 
+#include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
 
 namespace omma {
@@ -39,7 +40,7 @@ WorkerPool::WorkerPool(int workers, int priority, const std::vector<int>& cores)
         refusals_.insert(refusals_.end(), refused.begin(), refused.end());
       }
       ready.count_down();
-      serve();
+      serve(i + 1);
     });
   }
   ready.wait();
@@ -55,7 +56,9 @@ WorkerPool::~WorkerPool() {
 void WorkerPool::run_erased(int n_jobs, Trampoline call, void* context) noexcept {
   if (n_jobs <= 0) return;
   if (threads_.empty() || n_jobs == 1) {
-    for (int i = 0; i < n_jobs; ++i) call(context, i);
+    call_ = call;
+    context_ = context;
+    for (int i = 0; i < n_jobs; ++i) do_job(0, i);
     return;
   }
   call_ = call;
@@ -66,14 +69,25 @@ void WorkerPool::run_erased(int n_jobs, Trampoline call, void* context) noexcept
               std::memory_order_release);
   batch_.store(batch, std::memory_order_release);
   wake_all(batch_);
-  while (do_one_job()) {
+  while (do_one_job(0)) {
   }
   for (std::uint32_t left = unfinished_.load(std::memory_order_acquire); left != 0;
        left = unfinished_.load(std::memory_order_acquire))
     sleep_while(unfinished_, left);
 }
 
-bool WorkerPool::do_one_job() noexcept {
+void WorkerPool::do_job(int worker, int job) noexcept {
+  if (observer_ == nullptr) {
+    call_(context_, job);
+    return;
+  }
+  MonotonicClock clock;
+  const TimeNs start = clock.stopwatch();
+  call_(context_, job);
+  observer_->job_done(worker, job, start, elapsed(start, clock.stopwatch()));
+}
+
+bool WorkerPool::do_one_job(int worker) noexcept {
   constexpr std::uint64_t kLow = 0xffff;
   std::uint64_t seen = next_.load(std::memory_order_acquire);
   do {
@@ -81,17 +95,17 @@ bool WorkerPool::do_one_job() noexcept {
   } while (
       !next_.compare_exchange_weak(seen, seen + 1, std::memory_order_acq_rel, std::memory_order_acquire));
   // The job taken keeps the batch open until it is counted off: call_ and context_ stand still.
-  call_(context_, static_cast<int>(seen & kLow));
+  do_job(worker, static_cast<int>(seen & kLow));
   if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1) wake_all(unfinished_);
   return true;
 }
 
-void WorkerPool::serve() noexcept {
+void WorkerPool::serve(int worker) noexcept {
   std::uint32_t seen = 0;
   while (!ending_.load(std::memory_order_relaxed)) {
     {
       const RealTimeScope real_time;
-      while (do_one_job()) {
+      while (do_one_job(worker)) {
       }
     }
     const std::uint32_t batch = batch_.load(std::memory_order_acquire);

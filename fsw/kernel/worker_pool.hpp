@@ -18,6 +18,17 @@
 
 namespace omma {
 
+/// Told of every job, on the thread that did it and inside its real-time section.
+class JobObserver {
+ public:
+  /// @param worker    0: the caller; else number of the pool's thread
+  /// @param start_ns  on the stopwatch (Clock::stopwatch)
+  virtual void job_done(int worker, int job, TimeNs start_ns, TimeNs wall_ns) noexcept = 0;
+
+ protected:
+  ~JobObserver() = default;
+};
+
 class WorkerPool {
  public:
   /// @param workers   including the caller: 1 starts no thread
@@ -27,6 +38,9 @@ class WorkerPool {
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
+
+  /// While no job runs: from now on `observer` is told. It outlives the last job.
+  void observe(JobObserver& observer) noexcept { observer_ = &observer; }
 
   int workers() const { return static_cast<int>(threads_.size()) + 1; }
   /// Real-time privileges that were not granted.
@@ -48,12 +62,14 @@ class WorkerPool {
   using Trampoline = void (*)(void*, int) noexcept;
 
   void run_erased(int n_jobs, Trampoline call, void* context) noexcept;
-  bool do_one_job() noexcept;
-  void serve() noexcept;
+  void do_job(int worker, int job) noexcept;
+  bool do_one_job(int worker) noexcept;
+  void serve(int worker) noexcept;
 
   // The batch at hand. Written between batches, read only by who holds a job of the batch.
   Trampoline call_ = nullptr;
   void* context_ = nullptr;
+  JobObserver* observer_ = nullptr;
 
   /// Batch number (upper 32 bits), its jobs (16), the next one to take (16), in one word: a worker late from
   /// one batch can neither take a job of the next by mistake nor look at what is being written.

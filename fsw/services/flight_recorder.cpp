@@ -8,9 +8,10 @@ FlightRecorder::Group::Group(const RateGroup& group, std::size_t records) : name
     components.emplace_back(scheduled.component.name());
 }
 
-FlightRecorder::FlightRecorder(const RateGroupTable& table, bool lockstep, std::size_t records)
+FlightRecorder::FlightRecorder(const RateGroupTable& table, bool lockstep, int workers, std::size_t records)
     : lockstep_(lockstep), step_end_ns_(table.groups.size(), 0) {
   for (const RateGroup& group : table.groups) groups_.push_back(std::make_unique<Group>(group, records));
+  for (int worker = 0; worker < workers; ++worker) workers_.push_back(std::make_unique<Ring>(records));
 }
 
 void FlightRecorder::beat_started(std::uint16_t group, const Tick& tick, TimeNs latency_ns) noexcept {
@@ -44,6 +45,11 @@ void FlightRecorder::missed(std::uint16_t group, const Tick& first, std::uint64_
   groups_[group]->ring.put({first.time_ns, 0, first.number,
                             TraceRecord::pack(TraceKind::kMissed, 0, static_cast<std::uint32_t>(count))});
   slips_.fetch_add(1, std::memory_order_release);
+}
+
+void FlightRecorder::job_done(int worker, int job, TimeNs start_ns, TimeNs wall_ns) noexcept {
+  workers_[static_cast<std::size_t>(worker)]->put(
+      {start_ns, wall_ns, 0, TraceRecord::pack(TraceKind::kJob, 0, static_cast<std::uint32_t>(job))});
 }
 
 // A consequence of the step that has just ended.

@@ -1,7 +1,8 @@
 // Flight recorder: what every rate group did lately, always on. Each group's thread writes its steps, its
 // lateness and its slips into a ring of its own, of fixed size, from the stamps the scheduler takes anyway:
-// no clock is read, nothing is allocated, no one waits. Events are kept by the event service
-// (Events::history). To be looked at, the rings are copied out by an ordinary thread (trace_dump.hpp).
+// no clock is read, nothing is allocated, no one waits. So does each worker that shares a step, with its
+// jobs. Events are kept by the event service (Events::history). To be looked at, the rings are copied out by
+// an ordinary thread (trace_dump.hpp).
 #pragma once
 
 #include <atomic>
@@ -13,6 +14,7 @@
 #include "fsw/kernel/history_ring.hpp"
 #include "fsw/kernel/rate_group.hpp"
 #include "fsw/kernel/schedule_observer.hpp"
+#include "fsw/kernel/worker_pool.hpp"
 
 namespace omma {
 
@@ -23,6 +25,7 @@ enum class TraceKind : std::uint8_t {
   kBreach,     ///< the step before broke its budget of `duration_ns`
   kReaction,   ///< `value`: which BreachReaction
   kRecovered,  ///< `value`: the level to which it is degraded from now on
+  kJob,        ///< a job of a shared step, from begin to end: number `value`
 };
 
 /// Four whole words, so that it is put together in registers: the last holds what is short.
@@ -43,7 +46,7 @@ struct TraceRecord {
   constexpr std::uint32_t value() const { return static_cast<std::uint32_t>(packed >> 32); }
 };
 
-class FlightRecorder final : public ScheduleObserver {
+class FlightRecorder final : public ScheduleObserver, public JobObserver {
  public:
   /// A beat of n components takes n + 1 records: 4096 are 45 s of the vision chain at 10 Hz, or 2 s of one
   /// component at 1 kHz; 40 bytes each.
@@ -60,10 +63,13 @@ class FlightRecorder final : public ScheduleObserver {
 
   /// Allocates all rings.
   /// @param lockstep  time waits: then beats are never late, and their instants are not the stopwatch's
-  FlightRecorder(const RateGroupTable& table, bool lockstep, std::size_t records = kRecords);
+  /// @param workers   that share steps, the caller included; 0: no pool is observed
+  FlightRecorder(const RateGroupTable& table, bool lockstep, int workers = 0, std::size_t records = kRecords);
 
   /// In the table's order; to be read from any thread.
   const std::vector<std::unique_ptr<Group>>& groups() const { return groups_; }
+  /// Of each worker, the caller first.
+  const std::vector<std::unique_ptr<Ring>>& workers() const { return workers_; }
   /// Times that beats were missed, all groups: a slip is worth looking at.
   std::uint64_t slips() const noexcept { return slips_.load(std::memory_order_relaxed); }
 
@@ -75,6 +81,7 @@ class FlightRecorder final : public ScheduleObserver {
                        int level) noexcept override;
   void budget_recovered(SchedulePlace place, const Tick& tick, int level) noexcept override;
   void missed(std::uint16_t group, const Tick& first, std::uint64_t count) noexcept override;
+  void job_done(int worker, int job, TimeNs start_ns, TimeNs wall_ns) noexcept override;
 
  private:
   void mark(SchedulePlace place, const Tick& tick, TimeNs duration_ns, TraceKind kind,
@@ -82,6 +89,7 @@ class FlightRecorder final : public ScheduleObserver {
 
   const bool lockstep_;
   std::vector<std::unique_ptr<Group>> groups_;
+  std::vector<std::unique_ptr<Ring>> workers_;
   std::vector<TimeNs> step_end_ns_;  // of each group's newest step: when its consequences are drawn
   std::atomic<std::uint64_t> slips_{0};
 };

@@ -81,6 +81,15 @@ void tick_argument(JsonText& arguments, const TraceRecord& record) {
   arguments.key("tick").number(static_cast<double>(record.tick));
 }
 
+/// From the oldest to the newest of now.
+template <class Record, Writers kWriters, class Draw>
+void draw_each(const HistoryRing<Record, kWriters>& ring, Draw&& draw_one) {
+  const std::uint64_t end = ring.written();
+  Record record;
+  for (std::uint64_t number = ring.oldest(); number < end; ++number)
+    if (ring.read(number, record)) draw_one(record);
+}
+
 void draw(const TraceRecord& record, const FlightRecorder::Group& group, int track, Drawing& drawing) {
   if (record.position() >= group.components.size()) return;
   const std::string& component = group.components[record.position()];
@@ -120,7 +129,14 @@ void draw(const TraceRecord& record, const FlightRecorder::Group& group, int tra
       arguments.key("level").number(record.value());
       break;
     }
+    case TraceKind::kJob:
+      return;  // on the workers' tracks
   }
+  drawing.end();
+}
+
+void draw_job(const TraceRecord& record, int track, Drawing& drawing) {
+  drawing.span("job", track, record.start_ns, record.duration_ns).key("job").number(record.value());
   drawing.end();
 }
 
@@ -143,15 +159,15 @@ TraceText trace_text(const FlightRecorder& recorder, const Events& events,
   int track = kEventTrack;
   for (const auto& group : recorder.groups()) {
     drawing.name_track(++track, group->name);
-    const std::uint64_t end = group->ring.written();
-    TraceRecord record;
-    for (std::uint64_t number = group->ring.oldest(); number < end; ++number)
-      if (group->ring.read(number, record)) draw(record, *group, track, drawing);
+    draw_each(group->ring, [&](const TraceRecord& record) { draw(record, *group, track, drawing); });
   }
-  const std::uint64_t end = events.history().written();
-  EventMoment moment;
-  for (std::uint64_t number = events.history().oldest(); number < end; ++number)
-    if (events.history().read(number, moment)) draw(moment, descriptors, drawing);
+  for (std::size_t worker = 0; worker < recorder.workers().size(); ++worker) {
+    drawing.name_track(++track,
+                       worker == 0 ? "jobs of the caller" : "jobs of worker " + std::to_string(worker));
+    draw_each(*recorder.workers()[worker],
+              [&](const TraceRecord& record) { draw_job(record, track, drawing); });
+  }
+  draw_each(events.history(), [&](const EventMoment& moment) { draw(moment, descriptors, drawing); });
   return drawing.take();
 }
 

@@ -1,6 +1,6 @@
 // The flight recorder's rings as text that Perfetto (ui.perfetto.dev) and chrome://tracing read: the Trace
-// Event Format (JSON). A track a rate group with its steps, the group's lateness as a counter, slips and
-// events as marks; each carries its tick, which is the frame set's number.
+// Event Format (JSON). A track a rate group with its steps, one a worker with its jobs, the group's lateness
+// as a counter, slips and events as marks; each carries its tick, which is the frame set's number.
 #pragma once
 
 #include <span>

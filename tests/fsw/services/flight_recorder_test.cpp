@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "fsw/kernel/schedule_observers.hpp"
@@ -68,6 +69,27 @@ TEST(FlightRecorder, DrawsEachStepFromBeginToEnd) {
   EXPECT_DOUBLE_EQ(lateness[4].at("args").at("us").get<double>(), 0);  // on the grid again
 }
 
+TEST(FlightRecorder, DrawsTheJobsOfEveryWorkerOnATrackOfItsOwn) {
+  Scripted idle{"idle", [](const Tick&) {}};
+  const RateGroupTable table{.base_period = 1ms, .groups = {{.name = "g", .components = {{idle}}}}};
+  FlightRecorder recorder(table, false, 3);
+  WorkerPool pool(3);
+  pool.observe(recorder);
+  for (int batch = 0; batch < 10; ++batch) pool.run(4, [](int) {});
+  const Events events;
+  const json trace = json::parse(trace_text(recorder, events, kScheduleEvents).json);
+  std::map<int, std::string> tracks;
+  for (const json& name : drawn(trace, "M", "thread_name"))
+    tracks[name.at("tid")] = name.at("args").at("name");
+  std::map<int, int> times;  // each job was done
+  for (const json& job : drawn(trace, "X", "job")) {
+    ++times[job.at("args").at("job")];
+    EXPECT_THAT(tracks.at(job.at("tid")), ::testing::StartsWith("jobs of "));
+    EXPECT_GE(job.at("dur").get<double>(), 0);
+  }
+  EXPECT_EQ(times, (std::map<int, int>{{0, 10}, {1, 10}, {2, 10}, {3, 10}}));
+}
+
 TEST(FlightRecorder, MarksSlipsBreachesAndEvents) {
   const SlippingRun run;
   EXPECT_EQ(run.recorder.slips(), 1U);
@@ -113,7 +135,7 @@ TEST(FlightRecorder, KeepsTheNewestWhenItIsFull) {
   FakeClock clock;
   Scripted work("work", [&](const Tick&) { clock.spend(1000); });
   const RateGroupTable table{.base_period = 1ms, .groups = {{.name = "g", .components = {{work}}}}};
-  FlightRecorder recorder(table, false, 8);
+  FlightRecorder recorder(table, false, 0, 8);
   Scheduler scheduler(table, clock, recorder);
   scheduler.run(100);
   const json trace = json::parse(trace_text(recorder, Events(), {}).json);

@@ -5,7 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -19,11 +22,16 @@
 #include "fsw/app/topology.hpp"
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/memory_guard.hpp"
+#include "fsw/kernel/schedule_observers.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "fsw/services/command_script.hpp"
+#include "fsw/services/flight_recorder.hpp"
+#include "fsw/services/schedule_events.hpp"
 #include "ground/recording.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
+#include "tests/fsw/kernel/test_components.hpp"
+#include "tests/fsw/system_call_filter.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -61,7 +69,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-class Chain : public testing::Test {
+class Chain : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     scenario() = sim::read_scenario_file(config("demo_scenario.toml"));
@@ -256,6 +264,51 @@ TEST_F(Chain, TouchesNoMemoryInAThousandFrameSets) {
   EXPECT_EQ(memory_guard::violations().allocations, before.allocations);
   EXPECT_EQ(memory_guard::violations().releases, before.releases);
   EXPECT_EQ(memory_guard::violations().mappings, before.mappings);
+}
+
+// Every component, services included, in all its rate groups.
+TEST_F(Chain, InRealTimeMakesNoSystemCallButItsSleepAndTheWakingOfTheReader) {
+  if (!memory_guard::installed()) GTEST_SKIP() << "sanitizers make calls of their own";
+  Mission mission = read_mission(config("demo.toml"));
+  mission.recording = frames();
+  mission.frame_rate_hz = 20;  // health has its beat once a second
+  Topology topology(mission, {.lockstep = false, .workers = 1, .rounds = 4});
+  RateGroupTable table = topology.table();
+  Scheduler* running = nullptr;
+  std::atomic<int> unfiltered{0};
+  std::vector<int> steps(table.groups.size(), 0);
+  const auto seal = [&](std::size_t group) {
+    return [&, group](const Tick&) {
+      const int step = ++steps[group];
+      if (step == 1 && !testing::trap_system_calls(testing::Wakes::kAllowed)) ++unfiltered;
+      if (group != 0 || running == nullptr) return;
+      if (step == 3) testing::trapped_calls.counting.store(true);
+      if (step < 70) return;
+      testing::trapped_calls.counting.store(false);  // the threads' ends may call what they like
+      running->stop();
+    };
+  };
+  static constexpr std::array kNames{"seal_of_vision", "seal_of_health"};
+  std::deque<testing::Scripted> seals;
+  for (std::size_t g = 0; g < table.groups.size(); ++g) {
+    seals.emplace_back(kNames[g], seal(g));
+    std::vector<ScheduledComponent> sealed{{seals.back()}};
+    for (const ScheduledComponent& scheduled : table.groups[g].components) sealed.push_back(scheduled);
+    table.groups[g].components.swap(sealed);
+  }
+  MonotonicClock clock;
+  ScheduleEvents schedule_events(topology.events, &topology.mode_keeper);
+  FlightRecorder recorder(table, false, 1);
+  topology.observe_jobs(recorder);
+  ScheduleObservers observers{&schedule_events, &recorder};
+  Scheduler scheduler(table, clock, observers);
+  topology.health.observe(scheduler);
+  testing::count_trapped_calls();
+  running = &scheduler;
+  scheduler.run();
+  if (unfiltered > 0) GTEST_SKIP() << "no seccomp here";
+  EXPECT_EQ(testing::trapped_calls.others, 0) << "the last was " << testing::trapped_calls.last_other;
+  for (std::size_t g = 0; g < steps.size(); ++g) EXPECT_GE(steps[g], 2) << table.groups[g].name;
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "ground/design/design.hpp"
 #include "ground/design/predict.hpp"
 #include "ground/dots/dots.hpp"
+#include "ground/events/events.hpp"
 #include "ground/experiment/experiment.hpp"
 #include "ground/export/export.hpp"
 #include "ground/feed/feed.hpp"
@@ -44,6 +45,7 @@ int main(int argc, char** argv) {
   omma::ground::add_monitor(app, context);
   omma::ground::add_record(app, context);
   omma::ground::add_command(app, context);
+  omma::ground::add_events(app, context);
   omma::ground::add_export(app, context);
   omma::ground::add_compare(app, context);
   omma::ground::add_feed(app, context);

@@ -391,6 +391,7 @@ void fill(const SpacecraftStatus& status, omma_Status& out) noexcept {
   out.last_sequence = status.commands.last_sequence;
   out.commands_accepted = status.commands.accepted;
   out.commands_rejected = status.commands.rejected;
+  out.acks_dropped = status.commands.acks_dropped;
 }
 
 void fill(const ParameterSet& set, std::span<const ParameterEntry> entries, omma_Parameters& out) noexcept {

@@ -112,7 +112,7 @@ void Commander::acknowledge(CommandAck ack, const Tick& tick) noexcept {
   ack.time_ns = tick.time_ns;
   if (ack.stage == CommandStage::kAccepted) ++state->accepted;
   if (ack.stage == CommandStage::kRejected) ++state->rejected;
-  acks.send(ack);
+  if (!acks.send(ack)) ++state->acks_dropped;
 }
 
 void Commander::look_after_those_under_way(const Tick& tick) noexcept {

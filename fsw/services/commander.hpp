@@ -30,6 +30,7 @@ inline constexpr std::array kCommanderCommands{kNoOperation};
 struct CommanderState {
   std::uint32_t session = 0;
   std::uint32_t last_sequence = 0;  ///< of the newest command judged; 0: none yet
+  std::uint32_t acks_dropped = 0;   ///< acknowledgements that found their queue full
   std::uint32_t accepted = 0;
   std::uint32_t rejected = 0;
   friend bool operator==(const CommanderState&, const CommanderState&) = default;

@@ -14,13 +14,12 @@ void write_event(JsonText& json, const EventDescriptor& event) {
   json.open_object().key("id").number(event.id).key("name").string(event.name);
   json.key("severity").string(severity_name(event.severity)).key("text").string(event.text);
   json.key("values").open_array();
-  for (std::size_t i = 0; i < event.value_count(); ++i)
-    json.open_object()
-        .key("name")
-        .string(event.values[i].name)
-        .key("unit")
-        .string(event.values[i].unit)
-        .close_object();
+  for (std::size_t i = 0; i < event.value_count(); ++i) {
+    const EventValue& value = event.values[i];
+    json.open_object().key("name").string(value.name).key("unit").string(value.unit);
+    if (!value.choices.empty()) write_choices(json, value.choices);
+    json.close_object();
+  }
   json.close_array().key("burst").number(event.burst);
   json.key("interval_s").number(static_cast<double>(event.interval_ns) / 1e9).close_object();
 }

@@ -25,9 +25,7 @@ std::string_view type_name(ValueType type) {
 void write_range(JsonText& json, const ValueDescriptor& value) {
   json.key("unit").string(value.unit).key("type").string(type_name(value.type));
   if (value.type == ValueType::kChoice) {
-    json.key("choices").open_array();
-    for (int i = 0; i < choice_count(value.choices); ++i) json.string(choice_name(value.choices, i));
-    json.close_array();
+    write_choices(json, value.choices);
   } else if (value.type == ValueType::kNumber || value.type == ValueType::kInteger) {
     json.key("least").number(value.least).key("most").number(value.most);
   }
@@ -108,6 +106,12 @@ void write_fault_rule(JsonText& json, const Dictionary& dictionary, const FaultR
 }
 
 }  // namespace
+
+void write_choices(JsonText& json, std::string_view choices) {
+  json.key("choices").open_array();
+  for (int i = 0; i < choice_count(choices); ++i) json.string(choice_name(choices, i));
+  json.close_array();
+}
 
 void write_modes(JsonText& json, std::string_view key, ModeSet set) {
   json.key(key).open_array();

@@ -71,7 +71,42 @@ bool is_empty(const StoredEvent& event) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::byte byte) { return byte == std::byte{0}; });
 }
 
+StoredEvents whole_events(std::span<const StoredEvent> records) {
+  StoredEvents whole;
+  for (const StoredEvent& event : records) {
+    if (is_empty(event)) continue;
+    if (event.checksum == checksum_of(event))
+      whole.events.push_back(event);
+    else
+      ++whole.damaged;
+  }
+  std::sort(whole.events.begin(), whole.events.end(),
+            [](const StoredEvent& a, const StoredEvent& b) { return a.number < b.number; });
+  return whole;
+}
+
 }  // namespace
+
+StoredEvents read_event_store(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0)
+    throw InputError(path.string(), 0, "event store", "a file that can be read", std::strerror(errno));
+  Head head;
+  const bool has_head = pread(file, &head, sizeof head, 0) == sizeof head;
+  if (!has_head || !is_store(file, head.records)) {
+    close(file);
+    throw InputError(path.string(), 0, "event store", "what `omma-fsw --events FILE` keeps",
+                     "a file with another beginning, or of another length");
+  }
+  std::vector<StoredEvent> records(head.records);
+  const auto bytes = static_cast<ssize_t>(records.size() * sizeof(StoredEvent));
+  const bool whole = pread(file, records.data(), static_cast<std::size_t>(bytes), kHeadBytes) == bytes;
+  const int error = errno;
+  close(file);
+  if (!whole)
+    throw InputError(path.string(), 0, "event store", "a file that can be read", std::strerror(error));
+  return whole_events(records);
+}
 
 EventStore::EventStore(const std::filesystem::path& path, Events& events, std::size_t records)
     : events_(events), capacity_(records) {
@@ -93,7 +128,12 @@ EventStore::EventStore(const std::filesystem::path& path, Events& events, std::s
   if (mapping == MAP_FAILED) refuse(path, error);
   mapping_ = static_cast<std::byte*>(mapping);
   records_ = reinterpret_cast<StoredEvent*>(mapping_ + kHeadBytes);
-  read_earlier();
+  earlier_ = whole_events({records_, capacity_});
+  if (!earlier_.events.empty()) {
+    run_ = earlier_.events.back().run + 1;
+    // A damaged record may have been the newest: its place is not used again before the ring comes round.
+    next_number_ = earlier_.events.back().number + 1 + (earlier_.damaged > 0 ? 1 : 0);
+  }
   next_in_history_ = events_.history().written();
 }
 
@@ -101,24 +141,8 @@ EventStore::~EventStore() {
   munmap(mapping_, file_bytes(capacity_));
 }
 
-void EventStore::read_earlier() {
-  for (const StoredEvent& event : std::span(records_, capacity_)) {
-    if (is_empty(event)) continue;
-    if (event.checksum == checksum_of(event))
-      earlier_.push_back(event);
-    else
-      ++damaged_;
-  }
-  std::sort(earlier_.begin(), earlier_.end(),
-            [](const StoredEvent& a, const StoredEvent& b) { return a.number < b.number; });
-  if (earlier_.empty()) return;
-  run_ = earlier_.back().run + 1;
-  // A damaged record may have been the newest: its place is not used again before the ring comes round.
-  next_number_ = earlier_.back().number + 1 + (damaged_ > 0 ? 1 : 0);
-}
-
 void EventStore::begin(const Tick& tick) noexcept {
-  events_.raise<kRunBegan>(tick, run_, earlier_.size(), damaged_);
+  events_.raise<kRunBegan>(tick, run_, earlier_.events.size(), earlier_.damaged);
 }
 
 void EventStore::serve() noexcept {
@@ -145,6 +169,21 @@ void EventStore::serve() noexcept {
   busy_.clear(std::memory_order_release);
 }
 
+namespace {
+
+/// "event_17 (3, 4.5)"
+std::string undeclared_text(const EventRecord& record) {
+  std::string text = event_name(nullptr, record.id);
+  for (std::size_t i = 0; i < std::min<std::size_t>(record.value_count, record.values.size()); ++i) {
+    std::array<char, 32> number{};
+    std::snprintf(number.data(), number.size(), "%s%.9g", i == 0 ? " (" : ", ", record.values[i]);
+    text += number.data();
+  }
+  return record.value_count > 0 ? text + ")" : text;
+}
+
+}  // namespace
+
 std::string stored_events_text(std::span<const StoredEvent> events,
                                std::span<const EventDescriptor> descriptors) {
   std::string text;
@@ -156,7 +195,7 @@ std::string stored_events_text(std::span<const StoredEvent> events,
                   static_cast<double>(record.time_ns) * 1e-9,
                   std::string(severity_name(record.severity)).c_str());
     text += head.data();
-    text += declared != nullptr ? event_text(*declared, record) : event_name(declared, record.id);
+    text += declared != nullptr ? event_text(*declared, record) : undeclared_text(record);
     text += '\n';
   }
   return text;

@@ -36,6 +36,16 @@ struct StoredEvent {
 };
 static_assert(sizeof(StoredEvent) == 80 && sizeof(EventMoment) == 64, "nothing is padded");
 
+/// What lies in a store.
+struct StoredEvents {
+  std::vector<StoredEvent> events;  ///< oldest first
+  std::size_t damaged = 0;          ///< records that are neither empty nor whole
+};
+
+/// Of a file that no program writes at the moment, or whose newest record may be missing.
+/// @throws InputError where it is no event store
+StoredEvents read_event_store(const std::filesystem::path& file);
+
 class EventStore {
  public:
   static constexpr std::size_t kRecords = 4096;  ///< 320 KiB
@@ -51,9 +61,9 @@ class EventStore {
   /// Of this run.
   std::uint32_t run() const { return run_; }
   /// What earlier runs left, oldest first.
-  const std::vector<StoredEvent>& earlier() const { return earlier_; }
+  const std::vector<StoredEvent>& earlier() const { return earlier_.events; }
   /// Records that were neither empty nor whole.
-  std::size_t damaged() const { return damaged_; }
+  std::size_t damaged() const { return earlier_.damaged; }
   /// Empty, or a sentence to tell.
   const std::string& notice() const { return notice_; }
 
@@ -64,15 +74,13 @@ class EventStore {
   void serve() noexcept;
 
  private:
-  void read_earlier();
   StoredEvent* record(std::uint64_t number) const { return records_ + number % capacity_; }
 
   Events& events_;
   const std::size_t capacity_;
   std::byte* mapping_ = nullptr;
   StoredEvent* records_ = nullptr;
-  std::vector<StoredEvent> earlier_;
-  std::size_t damaged_ = 0;
+  StoredEvents earlier_;
   std::string notice_;
   std::uint32_t run_ = 1;
   std::uint64_t next_number_ = 1;

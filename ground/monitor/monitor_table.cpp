@@ -68,13 +68,16 @@ class Table {
     const std::optional<double> age = samples_.age(topic, now_);
     lines_.push_back({std::move(text), age && *age > kStaleAfter ? LineStyle::kStale : style});
   }
+  /// Of what stays true however old it is.
+  void lasting(LineStyle style, std::string text) { lines_.push_back({std::move(text), style}); }
   void plain(std::string text) { lines_.push_back({std::move(text), LineStyle::kPlain}); }
   /// A heading with the age of what stands below it.
-  void heading(const char* title, TopicId topic) {
+  /// @param lasting  what stands there does not grow stale
+  void heading(const char* title, TopicId topic, bool lasting = false) {
     const std::optional<double> age = samples_.age(topic, now_);
-    const std::string note = !age                 ? "nothing yet"
-                             : *age > kStaleAfter ? format("STALE, %.0f s old", *age)
-                                                  : format("%.1f s ago", *age);
+    const std::string note = !age                             ? "nothing yet"
+                             : *age > kStaleAfter && !lasting ? format("STALE, %.0f s old", *age)
+                                                              : format("%.1f s ago", *age);
     if (!lines_.empty()) plain("");
     lines_.push_back({format("%-10s %s", title, note.c_str()), LineStyle::kHeading});
   }
@@ -258,8 +261,9 @@ void add_status(Table& table, const omma_Status& status) {
       format("mode %s since %.3f s   limits: %u warned, %u in alarm", name_of(status.mode),
              static_cast<double>(status.mode_since_ns) * 1e-9, status.limits_warned, status.limits_alarmed));
   table.add(TopicId::kStatus, LineStyle::kPlain,
-            format("commands accepted %u, rejected %u, newest number %u   session %u",
-                   status.commands_accepted, status.commands_rejected, status.last_sequence, status.session));
+            format("commands accepted %u, rejected %u, newest number %u   session %u   untold answers %u",
+                   status.commands_accepted, status.commands_rejected, status.last_sequence, status.session,
+                   status.acks_dropped));
   table.add(TopicId::kStatus, LineStyle::kPlain,
             format("parameter set %u, %u staged", status.parameter_set, status.parameters_staged));
 }
@@ -314,12 +318,10 @@ void add_events(Table& table, const std::deque<EventLine>& events) {
     const LineStyle style = event.severity == omma_EVENT_FAILURE   ? LineStyle::kBad
                             : event.severity == omma_EVENT_WARNING ? LineStyle::kWarning
                                                                    : LineStyle::kPlain;
-    // An event stays true however old it is.
-    table.add(
-        TopicId::kEvent, style,
-        format("%12.3f s  %-10s %s%s", static_cast<double>(event.time_ns) * 1e-9, name_of(event.severity),
-               event.runs_ago > 0 ? format("(%u runs ago) ", event.runs_ago).c_str() : "",
-               event.text.c_str()));
+    table.lasting(style, format("%12.3f s  %-10s %s%s", static_cast<double>(event.time_ns) * 1e-9,
+                                name_of(event.severity),
+                                event.runs_ago > 0 ? format("(%u runs ago) ", event.runs_ago).c_str() : "",
+                                event.text.c_str()));
   }
 }
 
@@ -359,7 +361,7 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
     table.add(TopicId::kImageChunk, LineStyle::kPlain,
               format("image %u   %u x %u px   rows to %u", chunk->image, chunk->width_px, chunk->height_px,
                      chunk->first_row + chunk->rows));
-  table.heading("EVENTS", TopicId::kEvent);
+  table.heading("EVENTS", TopicId::kEvent, true);
   add_events(table, samples.events());
   return table.take();
 }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/format.hpp"
@@ -27,11 +28,27 @@ struct SpacecraftDictionary::Reader {
                           .type = kTypes.at(from.at("type").get<std::string>())};
     value.least = from.value("least", 0.0);
     value.most = from.value("most", 0.0);
-    std::string choices;
-    for (const json& choice : from.value("choices", json::array()))
-      choices += (choices.empty() ? "" : "|") + choice.get<std::string>();
-    value.choices = to.words_.emplace_back(choices);
+    value.choices = choices(from);
     return value;
+  }
+
+  std::string_view choices(const json& from) {
+    std::string joined;
+    for (const json& choice : from.value("choices", json::array()))
+      joined += (joined.empty() ? "" : "|") + choice.get<std::string>();
+    return to.words_.emplace_back(joined);
+  }
+
+  EventDescriptor event(const json& from) {
+    EventDescriptor event{.id = from.at("id").get<std::uint16_t>(),
+                          .name = keep(from.at("name")),
+                          .text = keep(from.at("text"))};
+    const json& values = from.at("values");
+    for (std::size_t i = 0; i < values.size(); ++i)
+      event.values.at(i) = {keep(values[i].at("name")), keep(values[i].at("unit")), choices(values[i])};
+    if (!is_well_formed(event))
+      throw std::runtime_error("event " + std::string(event.name) + " has no such values");
+    return event;
   }
 
   CommandDescriptor command(const json& from) {
@@ -49,6 +66,8 @@ SpacecraftDictionary::SpacecraftDictionary(std::string_view text, const std::str
   try {
     const json dictionary = json::parse(text);
     for (const json& command : dictionary.at("commands")) commands_.push_back(reader.command(command));
+    for (const json& event : dictionary.value("events", json::array()))
+      events_.push_back(reader.event(event));
     for (const json& entry : dictionary.value("parameters", json::array())) {
       parameters_.push_back(
           {entry.at("id").get<std::uint16_t>(), entry.at("name").get<std::string>(), reader.value(entry)});

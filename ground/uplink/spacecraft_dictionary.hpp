@@ -1,5 +1,5 @@
-// The words of a spacecraft's commands, as its dictionary gives them: from the spacecraft itself over DDS, or
-// from a file that `omma-fsw MISSION --dictionary` printed.
+// The words of a spacecraft's commands and events, as its dictionary gives them: from the spacecraft itself
+// over DDS, or from a file that `omma-fsw MISSION --dictionary` printed.
 #pragma once
 
 #include <deque>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fsw/services/command_text.hpp"
+#include "fsw/services/event.hpp"
 
 namespace omma::ground {
 
@@ -22,7 +23,9 @@ class SpacecraftDictionary {
   SpacecraftDictionary& operator=(const SpacecraftDictionary&) = delete;
 
   CommandVocabulary vocabulary() const { return {commands_, parameters_}; }
-  /// What there is, as a table for a reader.
+  /// The words point into this.
+  const std::vector<EventDescriptor>& events() const { return events_; }
+  /// What there is to command, as a table for a reader.
   std::string text() const;
 
  private:
@@ -30,6 +33,7 @@ class SpacecraftDictionary {
 
   std::deque<std::string> words_;  // what the descriptors' views look at
   std::vector<CommandDescriptor> commands_;
+  std::vector<EventDescriptor> events_;
   std::vector<ParameterEntry> parameters_;
   std::vector<std::string> parameter_notes_;  // value at the start and what it is, a parameter each
 };

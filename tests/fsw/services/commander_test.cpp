@@ -189,6 +189,15 @@ TEST_F(CommanderTest, AFullInletTurnsAwayAndABeatJudgesOnlySoMany) {
   EXPECT_EQ(step().size(), 2U * Commander::kPerBeat);
 }
 
+TEST_F(CommanderTest, AnswersThatFindNoRoomAreCounted) {
+  for (std::uint32_t sequence = 1; sequence <= 40; ++sequence) {
+    ASSERT_TRUE(commander.submit(point(sequence, 1)));
+    commander.step({sequence, 0});
+  }
+  EXPECT_EQ(commander.state->accepted, 40U);
+  EXPECT_EQ(commander.state->acks_dropped, 2U * 40U - 64U);
+}
+
 TEST_F(CommanderTest, AScriptGivesItsCommandsAtTheirTicks) {
   commander.play({{1, point(0, 10)}, {1, point(0, 20)}, {3, plain(0, kNever.id)}});
   EXPECT_THAT(step(), ElementsAre());

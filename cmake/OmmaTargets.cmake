@@ -30,7 +30,9 @@ target_compile_definitions(omma_options INTERFACE EIGEN_DONT_VECTORIZE)
 target_include_directories(omma_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
 if(OMMA_SANITIZE)
   target_compile_options(omma_options INTERFACE -fsanitize=${OMMA_SANITIZE} -fno-omit-frame-pointer
-    -fno-sanitize-recover=all)
+    -fno-sanitize-recover=all
+    # The checks between the lines hide from the compiler what is set: its warning is then about nothing.
+    -Wno-maybe-uninitialized)
   target_link_options(omma_options INTERFACE -fsanitize=${OMMA_SANITIZE})
 endif()
 

@@ -10,6 +10,8 @@
 
 #include "sim/camera_view.hpp"
 #include "sim/scenario.hpp"
+#include "sim/sky_glow.hpp"
+#include "sim/sky_scene.hpp"
 #include "sim/sky_spots.hpp"
 #include "sim/spot_truth.hpp"
 
@@ -33,16 +35,21 @@ class CameraRenderer {
 
  private:
   double drawn_time(std::uint64_t frame, int sample) const;
-  Eigen::Matrix3d camera_from_j2000(const SceneInstant& instant) const;
-  void add_sky(const SceneInstant& midpoint, std::span<const SceneInstant> drawn,
-               std::span<const CardView> cards);
-  void add_stray_sunlight(const Eigen::Vector3d& sun, std::span<const CardView> cards);
-  void add_cards(std::span<const SceneInstant> drawn, std::span<const CardView> cards);
+  CameraTurn turn_of(const SceneInstant& instant) const;
+  std::optional<Sunlight> sunlight(const SkyScene& sky, const SkyView& view) const;
+  void add_background(const SkyScene& sky, const SkyView& view);
+  void add_sky(const SkyScene& sky, const SkyView& view, std::span<const CardView> cards);
+  void add_stray_light(const SkyScene& sky, const SkyView& view, std::span<const CardView> cards);
+  void add_cards(std::span<const SceneInstant> drawn, const std::optional<Sunlight>& sunlight,
+                 std::span<const CardView> cards);
 
   const Scenario& scenario_;
   std::span<const SkyStar> stars_;
   const CameraView& view_;
   int index_;
+  ColourFactors colours_;
+  std::vector<float> star_factors_;  // of each star's light, by its colour; empty: one
+  SkyGlow glow_;
   DiscQuadrature quadrature_;
   std::uint64_t frame_ = 0;
   std::vector<float> electrons_;

@@ -1,38 +1,45 @@
-// CardView: a docking card as one camera sees it at one instant: what its plate hides, the plate itself, and
-// its discs. Geometry in docs/algorithms/simulation.md#cards.
+// CardView: a body with targets as one camera sees it at one instant: its faces, printed discs and lamps, and
+// what it hides. Geometry and light in docs/algorithms/simulation.md#cards.
 #pragma once
 
 #include <Eigen/Core>
 #include <limits>
-#include <span>
+#include <optional>
 #include <vector>
 
 #include "sim/camera_view.hpp"
 #include "sim/disc_quadrature.hpp"
+#include "sim/plate_view.hpp"
 #include "sim/scenario.hpp"
 #include "sim/spot.hpp"
 
 namespace omma::sim {
 
+/// The Sun on a body; nothing in the Earth's shadow.
+struct Sunlight {
+  Eigen::Vector3d to_sun = Eigen::Vector3d::UnitZ();  ///< camera frame, unit
+  double flux = 0;                                    ///< in units of a star of V = 0
+};
+
 class CardView {
  public:
-  CardView(const CameraView& camera, const Card& card, const Pose& rig_from_body);
+  /// @param sunlight  what surfaces with an albedo shine with
+  CardView(const CameraView& camera, const Card& card, const Pose& rig_from_body,
+           const std::optional<Sunlight>& sunlight = {});
 
-  /// Distance of the card's origin from the camera [m].
+  /// Distance of the body's origin from the camera [m].
   double distance() const { return camera_from_body_.translation.norm(); }
-  const Pose& camera_from_body() const { return camera_from_body_; }
 
-  /// Whether the plate stands between the camera and a point `distance` [m] away in the direction (camera
+  /// Whether a face stands between the camera and a point `distance` [m] away in the direction (camera
   /// frame, unit).
   bool hides(const Eigen::Vector3d& direction,
              double distance = std::numeric_limits<double>::infinity()) const;
 
-  /// Lays the plate over the empty sky of `electrons` (width × height): its light replaces the sky's; its
-  /// edge is as soft as the point spread. Seen from behind it is a plate as well.
-  void paint_plate(std::vector<float>& electrons) const;
+  /// Lays the faces over the sky of `electrons` (width × height), the far ones first.
+  void paint(std::vector<float>& electrons) const;
 
-  /// Where the card's disc `target` has its centre in the image; false if it turns away or is out of the
-  /// field.
+  /// Where the disc `target` has its centre in the image; false if it turns away, is behind another face of
+  /// the body, or out of the field.
   bool disc_centre(std::size_t target, Eigen::Vector2d& pixel, Eigen::Vector3d& direction,
                    double& distance) const;
 
@@ -41,20 +48,19 @@ class CardView {
                 std::vector<PointSource>& points) const;
 
  private:
-  struct Box {
-    int u0, v0, u1, v1;  // pixels [u0, u1) × [v0, v1)
-  };
+  const PlateView& face_of(std::size_t target) const { return faces_[card_.face_of[target]]; }
+  Eigen::Vector3d on_face(std::size_t target) const;
   bool faces_camera(std::size_t target) const;
-  bool plate_box(Box& box) const;
-  std::vector<float> coverage(const Box& box) const;
-  float coverage_of_pixel(const Eigen::Vector3f* upper, const Eigen::Vector3f* lower) const;
-  bool on_plate(const Eigen::Vector3f& ray) const;
+  bool is_lamp(std::size_t target) const;
+  double plate_electrons(const PlateView& face) const;
+  double disc_electrons(const PlateView& face) const;
+  double lit_electrons(const PlateView& face, double albedo) const;
 
   const CameraView& camera_;
   const Card& card_;
   Pose camera_from_body_;
-  Eigen::Vector3d eye_;               // camera centre, body frame [m]
-  Eigen::Matrix3f body_from_camera_;  // for the many rays of the plate
+  std::optional<Sunlight> sunlight_;
+  std::vector<PlateView> faces_;
 };
 
 }  // namespace omma::sim

@@ -13,6 +13,15 @@ Motion Motion::constant(const Pose& start, const Eigen::Vector3d& velocity, cons
   return motion;
 }
 
+Motion Motion::tumbling(std::shared_ptr<const Tumbling> turn, const Eigen::Vector3d& start,
+                        const Eigen::Vector3d& velocity) {
+  Motion motion;
+  motion.tumbling_ = std::move(turn);
+  motion.start_.translation = start;
+  motion.velocity_ = velocity;
+  return motion;
+}
+
 Motion Motion::through(std::vector<PoseKey> keys) {
   Motion motion;
   motion.keys_ = std::move(keys);
@@ -35,6 +44,7 @@ Eigen::Vector3d Motion::tangent(std::size_t key) const {
 }
 
 Pose Motion::at(double time) const {
+  if (tumbling_) return {tumbling_->at(time).rotation, start_.translation + velocity_ * time};
   if (keys_.empty()) {
     return {(start_.rotation * rotation_exp(rate_ * time)).normalized(),
             start_.translation + velocity_ * time};
@@ -55,6 +65,7 @@ Pose Motion::at(double time) const {
 }
 
 Eigen::Vector3d Motion::rate(double time) const {
+  if (tumbling_) return tumbling_->at(time).rate;
   if (keys_.empty()) return rate_;
   if (keys_.size() == 1 || time < keys_.front().time || time > keys_.back().time)
     return Eigen::Vector3d::Zero();

@@ -1,11 +1,13 @@
-// Motion of a body through time: constant velocity and turn, or key poses with a spline between them. The rig
-// is such a body in J2000, a docking card one in the rig's frame or in J2000.
+// Motion of a body through time: constant velocity and turn, free tumbling, or key poses with a spline
+// between them. The rig is such a body in J2000, a docking card one in the rig's frame or in J2000.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "components/geometry/pose.hpp"
+#include "sim/tumbling.hpp"
 
 namespace omma::sim {
 
@@ -21,6 +23,11 @@ class Motion {
   /// @param velocity  of the body's origin, in the frame [m/s]
   /// @param rate      turn of the body against the frame, body axes [rad/s]
   static Motion constant(const Pose& start, const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate);
+  /// A rigid body without torque; the frame is inertial.
+  /// @param start     of the body's origin at time 0 [m]
+  /// @param velocity  of it, in the frame [m/s]
+  static Motion tumbling(std::shared_ptr<const Tumbling> turn, const Eigen::Vector3d& start,
+                         const Eigen::Vector3d& velocity);
   /// Through keys with rising times, at least one: cubic Hermite in the position (finite-difference
   /// tangents), spherical linear between the rotations; held before the first and after the last.
   static Motion through(std::vector<PoseKey> keys);
@@ -37,6 +44,7 @@ class Motion {
   Pose start_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  std::shared_ptr<const Tumbling> tumbling_;
   std::vector<PoseKey> keys_;
 };
 

@@ -2,31 +2,74 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
-#include <numbers>
 
 #include "components/catalogue/star_catalogue.hpp"
 
 namespace omma::sim {
 
-double moon_magnitude(double phase_angle) {
-  const double degrees = phase_angle * 180 / std::numbers::pi;
-  return -12.73 + 0.026 * std::abs(degrees) + 4e-9 * std::pow(degrees, 4);
+std::vector<std::uint8_t> faces_of(const TargetBody& body, const std::vector<Face>& faces) {
+  constexpr double kAlike = 0.99;  // cosine
+  std::vector<std::uint8_t> found;
+  for (const Target& target : body.targets) {
+    std::size_t best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const Pose face_from_body = faces[f].body_from_face.inverse();
+      const double facing = (face_from_body.rotation * target.normal).z();
+      const Eigen::Vector3d place = face_from_body * target.position;
+      const Eigen::Vector2d outside =
+          (place.head<2>().cwiseAbs() - 0.5 * Eigen::Vector2d(faces[f].width, faces[f].height)).cwiseMax(0);
+      double distance = std::hypot(place.z(), outside.norm());
+      if (!target.normal.isZero(0) && facing < kAlike) distance += 1e6;
+      if (distance >= nearest) continue;
+      nearest = distance;
+      best = f;
+    }
+    found.push_back(static_cast<std::uint8_t>(best));
+  }
+  return found;
 }
 
-double phase_angle(const Eigen::Vector3d& to_moon, const Eigen::Vector3d& to_sun) {
-  return std::numbers::pi - std::acos(std::clamp(to_moon.dot(to_sun), -1.0, 1.0));
+namespace {
+
+/// j2000_from_frame of the rig's motion, and that frame's turn [rad/s].
+GroundAxes rig_axes_at(const Scenario& scenario, double time) {
+  if (scenario.rig_frame == RigFrame::kGround) return ground_axes_at(scenario, time);
+  if (scenario.rig_frame == RigFrame::kJ2000) return {};
+  const OrbitState state = scenario.orbit->at(time);
+  return {orbit_axes(state), orbit_axes_rate(state)};
 }
+
+}  // namespace
 
 SceneInstant scene_at(const Scenario& scenario, double time) {
   SceneInstant instant;
-  instant.rig_from_j2000 = scenario.rig_turn * scenario.rig_motion.at(time).rotation.conjugate();
-  instant.rig_rate = scenario.rig_turn * scenario.rig_motion.rate(time);
+  const GroundAxes frame = rig_axes_at(scenario, time);
+  const Eigen::Quaterniond rig_from_frame =
+      scenario.rig_turn * scenario.rig_motion.at(time).rotation.conjugate();
+  instant.rig_from_j2000 = rig_from_frame * frame.j2000_from_ground.conjugate();
+  instant.rig_rate = scenario.rig_turn * scenario.rig_motion.rate(time) + rig_from_frame * frame.rate;
+  if (scenario.ground) {
+    instant.up_rig = scenario.ground->up;
+    if (scenario.ground->site) {
+      const Eigen::Quaterniond rig_from_ground =
+          instant.rig_from_j2000 * ground_axes_at(scenario, time).j2000_from_ground;
+      instant.up_rig = rig_from_ground * Eigen::Vector3d::UnitZ();
+      instant.north_rig = rig_from_ground * Eigen::Vector3d::UnitY();
+    }
+  }
   const Pose rig_from_j2000{instant.rig_from_j2000, Eigen::Vector3d::Zero()};
   instant.rig_from_body.reserve(scenario.cards.size());
   for (const Card& card : scenario.cards) {
-    const Pose pose = card.motion.at(time);
+    Pose pose = card.motion.at(time);
+    if (card.orbit) pose.translation = card.orbit->at(time).position - scenario.orbit->at(time).position;
     instant.rig_from_body.push_back(card.inertial ? rig_from_j2000 * pose : pose);
+    // A card that the rig carries along turns with it.
+    Eigen::Vector3d rate = card.motion.rate(time);
+    if (!card.inertial) rate += pose.rotation.conjugate() * instant.rig_rate;
+    instant.body_rate.push_back(rate);
   }
   return instant;
 }

@@ -16,36 +16,61 @@
 #include "config/limits.hpp"
 #include "sim/ground.hpp"
 #include "sim/motion.hpp"
+#include "sim/orbit.hpp"
 #include "sim/sensor.hpp"
+#include "sim/sky_scene.hpp"
 
 namespace omma::sim {
 
-/// A docking card: a rectangular plate about the origin of the body frame (x right, y up, z towards the
-/// viewer) with discs parallel to it, centred on the targets. Surfaces shine evenly in all directions.
+/// A flat rectangle of a body, its outside towards +z of its own axes.
+struct Face {
+  Pose body_from_face;
+  double width = 0;   ///< along x [m]
+  double height = 0;  ///< along y [m]
+};
+
+/// Surfaces that the Sun lights (Lambert's law): shares of its light that they send back.
+struct Printed {
+  double plate = 0.05;
+  double disc = 0.9;
+  double ambient = 60;  ///< of a white surface in the shade [V mag / arcsec²]
+};
+
+/// Lamps instead of discs. Light falls as cosᵐ of the angle from their axis (generalised Lambertian source).
+struct Led {
+  double magnitude = 0;  ///< V, seen from 1 m on the axis
+  double order = 1;      ///< m: 1 is an even disc
+};
+
+/// A body with targets: a docking card (one plate about the origin of the body frame, x right, y up, z
+/// towards the viewer), or several faces of a spacecraft. Discs are parallel to their face, centred on the
+/// targets.
 struct Card {
   TargetBody body;
   std::filesystem::path target_file;
   Motion motion;  ///< frame_from_body
   bool inertial =
-      false;          ///< the frame of `motion` has J2000's axes about the rig's origin; else it is the rig's
-  double width = 0;   ///< of the plate, along x [m]
-  double height = 0;  ///< along y [m]
-  double plate_magnitude = 0;  ///< surface brightness [V mag / arcsec²]
-  double disc_magnitude = 0;   ///< [V mag / arcsec²]
-  double disc_diameter = 0;    ///< [m]
+      false;  ///< the frame of `motion` has J2000's axes about the rig's origin; else it is the rig's
+  std::optional<Orbit>
+      orbit;                ///< its own, and the rig has one too: takes the place of the motion's positions
+  std::vector<Face> faces;  ///< at least one
+  std::vector<std::uint8_t> face_of;  ///< each target's, an index of `faces`
+  double plate_magnitude = 0;         ///< surface brightness, the same from all sides [V mag / arcsec²]
+  double disc_magnitude = 0;          ///< [V mag / arcsec²]
+  std::optional<Printed> printed;     ///< instead of these, lit by the Sun
+  std::optional<Led> led;             ///< targets of type 1 are lamps
+  double disc_diameter = 0;           ///< [m]
 };
 
-/// A round luminous body at infinity: the Moon, or the Sun.
-struct Disc {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< unit vector, J2000 axes
-  double diameter = 0;                                   ///< [rad]
-  double magnitude = 0;                                  ///< V, of the whole disc
-};
+/// The face each target is on: the one it lies nearest to among those that face as its normal does.
+std::vector<std::uint8_t> faces_of(const TargetBody& body, const std::vector<Face>& faces);
 
-/// V of the Moon at a phase angle (0: full). Allen, Astrophysical Quantities, 1976, section 66.
-double moon_magnitude(double phase_angle);
-/// Angle at the Moon between Sun and Earth, the Sun being very far [rad].
-double phase_angle(const Eigen::Vector3d& to_moon, const Eigen::Vector3d& to_sun);
+/// What the rig's motion is told against.
+enum class RigFrame : std::uint8_t {
+  kJ2000,
+  kGround,  ///< x east, y north, z up at the ground's site
+  kOrbit,   ///< orbit_axes
+};
 
 struct Scenario {
   std::string name;
@@ -60,13 +85,17 @@ struct Scenario {
   std::uint64_t seed = 1;
   double faintest = 6.5;         ///< V of the faintest star drawn
   double truth_minimum_snr = 3;  ///< spots below this are drawn but not told
-  Motion rig_motion;             ///< j2000_from_rig, rotation only
+  RigFrame rig_frame = RigFrame::kJ2000;
+  Motion rig_motion;  ///< frame_from_rig, rotation only
   /// The rig stands turned from its motion by this: a gimbal's lash, another in each trial (rig axes).
   Eigen::Quaterniond rig_turn = Eigen::Quaterniond::Identity();
   std::vector<Card> cards;
   std::optional<Disc> moon;
   std::optional<Disc> sun;       ///< the Moon is lit by it where there are both, else full
+  bool solar_system = false;     ///< Sun, Moon and planets where they are at each frame's time, not the above
   std::optional<Ground> ground;  ///< none in orbit
+  std::optional<Orbit> orbit;    ///< none in a laboratory, or where only the stars matter
+  EarthLook earth;               ///< seen in orbit only
 
   double time_of(std::uint64_t frame) const { return static_cast<double>(frame) / frame_rate; }  ///< [s]
 };
@@ -74,8 +103,11 @@ struct Scenario {
 /// Where everything is at one instant.
 struct SceneInstant {
   Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d rig_rate = Eigen::Vector3d::Zero();  ///< of the rig, rig frame [rad/s]
-  std::vector<Pose> rig_from_body;                     ///< of the cards, in their order
+  Eigen::Vector3d rig_rate = Eigen::Vector3d::Zero();   ///< of the rig, rig frame [rad/s]
+  std::vector<Pose> rig_from_body;                      ///< of the cards, in their order
+  std::vector<Eigen::Vector3d> body_rate;               ///< their turn against J2000, body axes [rad/s]
+  Eigen::Vector3d up_rig = Eigen::Vector3d::Zero();     ///< zenith, on the ground
+  Eigen::Vector3d north_rig = Eigen::Vector3d::Zero();  ///< where the ground's site is told
 };
 
 /// @param time  [s] since the first frame

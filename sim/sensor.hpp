@@ -11,6 +11,7 @@
 
 #include "sim/log_response.hpp"
 #include "sim/random.hpp"
+#include "sim/star_colour.hpp"
 
 namespace omma::sim {
 
@@ -48,6 +49,7 @@ struct Sensor {
   double veil_width = 0.4;  ///< angle from the Sun within which most of that falls [rad]
   double veil_reach = 1.6;  ///< the Sun farther off axis than this does not reach the glass [rad]
   std::vector<Ghost> ghosts;
+  SpectralResponse response;               ///< empty: stars of one V are alike whatever their colour
   std::optional<LogResponse> logarithmic;  ///< gain, black level, read noise and full well are unused with it
 
   std::uint16_t white_level() const {

@@ -23,14 +23,20 @@ void add_point(const CameraView& camera, const Eigen::Vector3d& direction, doubl
 }  // namespace
 
 void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
-               const std::optional<Disc>& moon, std::span<const CardView> cards, SpotList& list) {
-  const double cos_edge = std::cos(std::min(0.5 * camera.sensor().field, std::numbers::pi));
+               std::span<const float> factors, const std::optional<Disc>& moon,
+               std::span<const CardView> cards, SpotList& list) {
+  constexpr double kRefracted = 0.012;  // 40': as far as the air lifts a star
+  const double edge = std::min(0.5 * camera.sensor().field + kRefracted, std::numbers::pi);
+  const double cos_edge = std::cos(edge);
   const double cos_moon = moon ? std::cos(0.5 * moon->diameter) : 2.0;
   const double share = 1.0 / static_cast<double>(view.drawn.size());
-  for (const SkyStar& star : stars) {
-    const Eigen::Vector3d direction = view.camera_from_j2000 * star.direction;
-    if (direction.z() < cos_edge) continue;
+  const Eigen::Vector3d axis = view.midpoint.camera_from_j2000.row(2).transpose();
+  for (std::size_t i = 0; i < stars.size(); ++i) {
+    const SkyStar& star = stars[i];
+    if (axis.dot(star.direction) < cos_edge) continue;
     if (moon && star.direction.dot(moon->direction) > cos_moon) continue;
+    const Eigen::Vector3d aberrated = (star.direction + view.velocity_over_c).normalized();
+    const Eigen::Vector3d direction = view.seen(view.midpoint, aberrated);
     Spot spot;
     spot.kind = SpotKind::kStar;
     spot.hr = star.hr;
@@ -38,20 +44,17 @@ void add_stars(const CameraView& camera, const SkyView& view, std::span<const Sk
     const double through = view.transmission(direction);
     if (through == 0 || !camera.project(direction, spot.centre, kept) || hidden(direction, cards)) continue;
     const std::size_t first = list.points.size();
-    const double flux = camera.star_electrons(star.magnitude) * share * through;
-    for (const Eigen::Matrix3d& camera_from_j2000 : view.drawn) {
-      add_point(camera, camera_from_j2000 * star.direction, flux, list.points);
-    }
+    const double factor = factors.empty() ? 1.0 : double{factors[i]};
+    const double flux = camera.star_electrons(star.magnitude) * factor * share * through;
+    for (const CameraTurn& turn : view.drawn)
+      add_point(camera, view.seen(turn, aberrated), flux, list.points);
     list.close(spot, first);
   }
 }
 
-void add_disc(const CameraView& camera, const SkyView& view, SpotKind kind, const Disc& disc,
-              const Eigen::Vector3d* lit_by, std::span<const CardView> cards,
-              const DiscQuadrature& quadrature, SpotList& list) {
-  const Eigen::Vector3d direction = view.camera_from_j2000 * disc.direction;
-  Spot spot;
-  spot.kind = kind;
+void add_disc(const CameraView& camera, const SkyView& view, Spot spot, const Disc& disc, double factor,
+              std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list) {
+  const Eigen::Vector3d direction = view.seen(view.midpoint, disc.direction);
   double kept = 0;
   const double through = view.transmission(direction);
   if (through == 0 || !camera.project(direction, spot.centre, kept) || hidden(direction, cards)) return;
@@ -64,22 +67,37 @@ void add_disc(const CameraView& camera, const SkyView& view, SpotKind kind, cons
   for (const QuadraturePoint& q : rule) {
     const double depth = std::sqrt(std::max(0.0, 1 - q.position.squaredNorm()));
     const Eigen::Vector3d normal = basis * q.position - depth * disc.direction;
-    lit.push_back(q.weight * (lit_by == nullptr ? 1 : std::max(0.0, normal.dot(*lit_by))));
+    lit.push_back(q.weight * (disc.to_sun ? std::max(0.0, normal.dot(*disc.to_sun)) : 1));
     all += lit.back();
   }
   if (!(all > 0)) return;  // new Moon
-  const double flux =
-      through * camera.star_electrons(disc.magnitude) / (all * static_cast<double>(view.drawn.size()));
+  const double flux = factor * through * camera.star_electrons(disc.magnitude) /
+                      (all * static_cast<double>(view.drawn.size()));
   const std::size_t first = list.points.size();
-  for (const Eigen::Matrix3d& camera_from_j2000 : view.drawn) {
+  for (const CameraTurn& turn : view.drawn) {
     for (std::size_t k = 0; k < rule.size(); ++k) {
       if (lit[k] == 0) continue;
       const Eigen::Vector3d limb =
           (disc.direction + std::tan(radius) * basis * rule[k].position).normalized();
-      add_point(camera, camera_from_j2000 * limb, flux * lit[k], list.points);
+      add_point(camera, view.seen(turn, limb), flux * lit[k], list.points);
     }
   }
   list.close(spot, first);
+}
+
+void add_lamps(const CameraView& camera, const SkyView& view, std::span<const CardView> cards,
+               SpotList& list) {
+  const double share = 1.0 / static_cast<double>(view.drawn.size());
+  for (const Lamp& lamp : view.ground->lamps) {
+    const auto direction = [&](const CameraTurn& turn) -> Eigen::Vector3d {
+      const Eigen::Vector3d level =
+          std::cos(lamp.azimuth) * turn.north + std::sin(lamp.azimuth) * turn.north.cross(turn.up);
+      return std::cos(lamp.elevation) * level + std::sin(lamp.elevation) * turn.up;
+    };
+    if (hidden(direction(view.midpoint), cards)) continue;
+    for (const CameraTurn& turn : view.drawn)
+      add_point(camera, direction(turn), share * camera.star_electrons(lamp.magnitude), list.points);
+  }
 }
 
 void add_glare(const CameraView& camera, const Spot& spot, const SpotList& list,

@@ -1,4 +1,4 @@
-// The sky in one camera: stars, Moon and Sun as points of light.
+// The sky in one camera: stars, Sun, Moon and planets as points of light, and lamps on the ground.
 #pragma once
 
 #include <span>
@@ -8,33 +8,57 @@
 #include "sim/camera_view.hpp"
 #include "sim/card_view.hpp"
 #include "sim/disc_quadrature.hpp"
+#include "sim/earth_view.hpp"
 #include "sim/scenario.hpp"
 #include "sim/spot.hpp"
 
 namespace omma::sim {
 
-/// One camera's turn to the sky at the exposure midpoint and at the instants that are drawn.
-struct SkyView {
-  Eigen::Matrix3d camera_from_j2000;   ///< at the midpoint
-  std::vector<Eigen::Matrix3d> drawn;  ///< camera_from_j2000 at each drawn instant, of equal weight
-  std::optional<Ground> ground;        ///< its `up` in the camera's frame
+/// One camera's turn at one instant.
+struct CameraTurn {
+  Eigen::Matrix3d camera_from_j2000 = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();     ///< zenith, camera frame, on the ground
+  Eigen::Vector3d north = Eigen::Vector3d::Zero();  ///< likewise, where the site is told
+};
 
-  /// Share of the light that comes from a direction of the camera's frame.
+/// The sky about one camera at the exposure midpoint, and its turns at the instants that are drawn.
+struct SkyView {
+  CameraTurn midpoint;
+  std::vector<CameraTurn> drawn;                              ///< of equal weight
+  const Ground* ground = nullptr;                             ///< nullptr: none
+  const EarthView* earth = nullptr;                           ///< nullptr: none, or not from orbit
+  Eigen::Vector3d velocity_over_c = Eigen::Vector3d::Zero();  ///< of the observer about the Earth, J2000 axes
+
+  /// Where a direction of J2000 (unit) is seen, camera frame.
+  Eigen::Vector3d seen(const CameraTurn& turn, const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d ray = turn.camera_from_j2000 * direction;
+    return ground != nullptr ? ground->apparent(ray, turn.up) : ray;
+  }
+  /// Share of the light that comes from a direction of the camera's frame, at the midpoint.
   double transmission(const Eigen::Vector3d& direction) const {
-    return ground ? ground->transmission(ground->up.dot(direction)) : 1.0;
+    double share = ground != nullptr ? ground->transmission(midpoint.up.dot(direction)) : 1.0;
+    if (earth != nullptr) share *= earth->transmission(direction);
+    return share;
   }
 };
 
-/// Appends the stars that neither a card nor the ground hides and that are not behind the Moon.
+/// Appends the stars that neither a card nor the ground or the Earth hides and that are not behind the Moon.
+/// @param factors  of the stars' light, as many as stars: what the sensor makes of their colours; empty: one
 void add_stars(const CameraView& camera, const SkyView& view, std::span<const SkyStar> stars,
-               const std::optional<Disc>& moon, std::span<const CardView> cards, SpotList& list);
+               std::span<const float> factors, const std::optional<Disc>& moon,
+               std::span<const CardView> cards, SpotList& list);
 
-/// Appends the disc of Moon or Sun, unless a card or the ground hides its centre.
-/// @param lit_by  direction of the Sun, J2000 axes: the disc is a sphere that it lights (Lambert's law), its
-///                magnitude that of the lit part; nullptr: an even disc
-void add_disc(const CameraView& camera, const SkyView& view, SpotKind kind, const Disc& disc,
-              const Eigen::Vector3d* lit_by, std::span<const CardView> cards,
-              const DiscQuadrature& quadrature, SpotList& list);
+/// Appends the disc of a body of the solar system, unless a card, the ground or the Earth hides its centre. A
+/// disc with a side to the Sun is a sphere that it lights (Lambert's law), its magnitude that of the lit
+/// part.
+/// @param spot    its kind; the rest is filled in
+/// @param factor  of its light: what the sensor makes of its colour
+void add_disc(const CameraView& camera, const SkyView& view, Spot spot, const Disc& disc, double factor,
+              std::span<const CardView> cards, const DiscQuadrature& quadrature, SpotList& list);
+
+/// Appends the ground's lamps: points of light that are no spots.
+void add_lamps(const CameraView& camera, const SkyView& view, std::span<const CardView> cards,
+               SpotList& list);
 
 /// Adds the light that the lens scatters about a bright spot: share `glare` of its flux, falling as
 /// r₀ / (2π (r² + r₀²)^{3/2}), which integrates to one over the plane; outside the field nothing is added.

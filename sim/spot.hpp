@@ -7,15 +7,17 @@
 #include <span>
 #include <vector>
 
+#include "components/catalogue/solar_system.hpp"
 #include "sim/point_spread.hpp"
 
 namespace omma::sim {
 
-enum class SpotKind : std::uint8_t { kStar, kTarget, kMoon, kSun };
+enum class SpotKind : std::uint8_t { kStar, kTarget, kMoon, kSun, kPlanet };
 
 struct Spot {
   SpotKind kind = SpotKind::kStar;
-  std::uint16_t hr = 0;      ///< star: number in the Bright Star Catalogue
+  std::uint16_t hr = 0;  ///< star: number in the Bright Star Catalogue
+  SolarBody planet = SolarBody::kVenus;
   std::uint16_t card = 0;    ///< target: index in Scenario::cards
   std::uint16_t target = 0;  ///< target: index in the card's body
   /// Image of the star, or of the disc's centre, at the exposure midpoint [px]. Perspective and the lens put

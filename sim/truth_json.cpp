@@ -47,6 +47,10 @@ Json spot_json(const Scenario& scenario, std::size_t camera, const SpotTruth& tr
     case SpotKind::kSun:
       spot["kind"] = "sun";
       break;
+    case SpotKind::kPlanet:
+      spot["kind"] = "planet";
+      spot["name"] = std::string(solar_body_name(truth.spot.planet));
+      break;
     case SpotKind::kTarget: {
       const TargetBody& body = scenario.cards[truth.spot.card].body;
       spot["kind"] = "target";
@@ -120,13 +124,42 @@ Json card_json(const Card& card, const std::string& target_file) {
                        {"group", t.group},
                        {"type", t.type}});
   }
-  return {{"name", std::string(card.body.name.view())},
-          {"targets_file", target_file},
-          {"plate_m", {card.width, card.height}},
-          {"plate_v_arcsec2", card.plate_magnitude},
-          {"disc_v_arcsec2", card.disc_magnitude},
-          {"disc_diameter_m", card.disc_diameter},
-          {"targets", targets}};
+  Json json{{"name", std::string(card.body.name.view())},
+            {"targets_file", target_file},
+            {"disc_diameter_m", card.disc_diameter},
+            {"faces", Json::array()}};
+  for (const Face& face : card.faces)
+    json["faces"].push_back(
+        {{"plate_m", {face.width, face.height}}, {"body_from_face", pose(face.body_from_face)}});
+  if (card.printed) {
+    json["plate_albedo"] = card.printed->plate;
+    json["disc_albedo"] = card.printed->disc;
+    json["ambient_v_arcsec2"] = card.printed->ambient;
+  } else {
+    json["plate_v_arcsec2"] = card.plate_magnitude;
+    json["disc_v_arcsec2"] = card.disc_magnitude;
+  }
+  if (card.led) json["led"] = {{"v_at_1m", card.led->magnitude}, {"order", card.led->order}};
+  json["targets"] = targets;
+  return json;
+}
+
+/// Where the rig is and what is about it, in the rig's axes; directions before refraction.
+void add_surroundings(const Scenario& scenario, const SceneInstant& scene, double time, Json& line) {
+  const SkyScene sky = sky_scene_at(scenario, time);
+  const OrbitState observer = observer_at(scenario, time);
+  if (!observer.position.isZero(0)) {
+    line["position_m"] = xyz(observer.position);
+    line["velocity_m_s"] = xyz(observer.velocity);
+  }
+  if (sky.earth) {
+    const double distance = observer.position.norm();
+    line["earth"] = {{"direction_rig", xyz(scene.rig_from_j2000 * -observer.position / distance)},
+                     {"radius_rad", std::asin(kEarthRadius / distance)}};
+  }
+  if (scenario.ground) line["up_rig"] = xyz(scene.up_rig);
+  if (sky.sun) line["sun_rig"] = xyz(scene.rig_from_j2000 * sky.sun->direction);
+  if (sky.moon) line["moon_rig"] = xyz(scene.rig_from_j2000 * sky.moon->direction);
 }
 
 }  // namespace
@@ -166,8 +199,10 @@ std::string truth_line(const Scenario& scenario, std::uint64_t frame,
   line["bodies"] = Json::array();
   for (std::size_t c = 0; c < scenario.cards.size(); ++c) {
     line["bodies"].push_back({{"name", std::string(scenario.cards[c].body.name.view())},
-                              {"rig_from_body", pose(scene.rig_from_body[c])}});
+                              {"rig_from_body", pose(scene.rig_from_body[c])},
+                              {"rate_body", xyz(scene.body_rate[c])}});
   }
+  add_surroundings(scenario, scene, scenario.time_of(frame), line);
   line["spots"] = Json::array();
   for (std::size_t camera = 0; camera < spots.size(); ++camera) {
     for (const SpotTruth& spot : spots[camera]) line["spots"].push_back(spot_json(scenario, camera, spot));
@@ -201,10 +236,13 @@ std::string scenario_json(const Scenario& scenario, std::span<const std::string>
   }
   if (scenario.moon) json["moon"] = disc_json(*scenario.moon);
   if (scenario.sun) json["sun"] = disc_json(*scenario.sun);
+  json["solar_system"] = scenario.solar_system;
   if (scenario.ground) {
-    json["ground"] = {{"up_rig", xyz(scenario.ground->up)},
-                      {"skyline_deg", scenario.ground->skyline * 180.0 / std::numbers::pi},
-                      {"extinction_mag", scenario.ground->extinction}};
+    const Ground& ground = *scenario.ground;
+    json["ground"] = {{"up_rig", xyz(scene_at(scenario, 0).up_rig)},
+                      {"skyline_deg", ground.skyline * 180.0 / std::numbers::pi},
+                      {"extinction_mag", ground.extinction},
+                      {"refraction", ground.refracts}};
   }
   return json.dump(2) + "\n";
 }

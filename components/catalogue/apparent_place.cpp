@@ -12,14 +12,6 @@ namespace {
 constexpr double kSpeedOfLight = 299792458.0;  // [m/s]
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// International Standard Atmosphere below 11 km.
-double standard_temperature(double height) noexcept {
-  return 288.15 - 0.0065 * height;
-}
-double standard_pressure(double height) noexcept {
-  return 1013.25 * std::pow(standard_temperature(height) / 288.15, 5.25588);
-}
-
 /// Of a site from the centre of the Earth, on the WGS 84 ellipsoid. @param zenith, axis  unit vectors [m]
 Eigen::Vector3d site_position(const GroundSite& site, const Eigen::Vector3d& zenith,
                               const Eigen::Vector3d& axis) noexcept {
@@ -32,6 +24,14 @@ Eigen::Vector3d site_position(const GroundSite& site, const Eigen::Vector3d& zen
 }
 
 }  // namespace
+
+double standard_temperature(double height) noexcept {
+  return 288.15 - 0.0065 * height;
+}
+
+double standard_pressure(double height) noexcept {
+  return 1013.25 * std::pow(standard_temperature(height) / 288.15, 5.25588);
+}
 
 Eigen::Vector3d j2000_direction(const CatalogueStar& star) noexcept {
   const double c = std::cos(star.declination);

@@ -13,6 +13,10 @@ namespace omma {
 /// Unit vector of a star at the catalogue's epoch, J2000 axes.
 Eigen::Vector3d j2000_direction(const CatalogueStar& star) noexcept;
 
+/// International Standard Atmosphere below 11 km. @param height [m] @return [K]; [hPa]
+double standard_temperature(double height) noexcept;
+double standard_pressure(double height) noexcept;
+
 /// Refraction of a star at the true altitude `altitude` [rad], ≥ −1°: how much higher it is seen [rad].
 /// Sæmundsson (Sky and Telescope 72, 70, 1986; Meeus ch. 16), consistent with Bennett's to 0.1': good to
 /// 4" above 15° for the given air, whose density it scales with.

@@ -5,9 +5,10 @@ Input:  bsc5.dat, the Yale Bright Star Catalogue, 5th revised edition (Hoffleit 
         https://cdsarc.cds.unistra.fr/ftp/V/50/), fixed width, 9110 lines of which 9096 are stars.
 Output: components/catalogue/bright_stars_table.inc        positions, motions, magnitudes; brightest first
         components/catalogue/star_designations_table.inc   Flamsteed and Bayer designations; by HR number
+        sim/star_colours_table.inc                         B - V, for the simulator; by HR number
 
 Run from the top of the tree:
-    python3 ground/catalogue/generate_bright_stars.py bsc5.dat          writes both tables
+    python3 ground/catalogue/generate_bright_stars.py bsc5.dat          writes the tables
     python3 ground/catalogue/generate_bright_stars.py --check bsc5.dat  compares them with what stands there
 
 All numbers are kept as the catalogue prints them (tenths of a second, arcseconds, milliarcseconds per year,
@@ -25,6 +26,7 @@ STARS = 9096
 TOP = pathlib.Path(__file__).resolve().parents[2]
 STAR_TABLE = TOP / "components/catalogue/bright_stars_table.inc"
 NAME_TABLE = TOP / "components/catalogue/star_designations_table.inc"
+COLOUR_TABLE = TOP / "sim/star_colours_table.inc"
 
 
 def scaled(field, decimals):
@@ -40,7 +42,7 @@ def scaled(field, decimals):
 
 
 def read_stars(path):
-    """Rows (hr, magnitude, right ascension, declination, two proper motions, designation) of the stars."""
+    """Rows (hr, magnitude, right ascension, declination, two proper motions, designation, B - V or None) of the stars."""
     stars = []
     for number, line in enumerate(path.read_text(encoding="latin1").splitlines(), 1):
         line = line.ljust(197)
@@ -54,7 +56,8 @@ def read_stars(path):
             if line[83] == "-":
                 arcseconds = -arcseconds
             stars.append((hr, magnitude, seconds, arcseconds, scaled(line[148:154], 3),
-                          scaled(line[154:160], 3), line[4:14]))
+                          scaled(line[154:160], 3), line[4:14],
+                          scaled(line[109:114], 2) if line[109:114].strip() else None))
         except ValueError as error:
             sys.exit(f"{path}:{number}: expected a star of the Bright Star Catalogue, found {error}")
     if len(stars) != STARS:
@@ -83,6 +86,14 @@ def designation_table(stars):
     return "\n".join(lines) + "\n"
 
 
+def colour_table(stars):
+    lines = ["// Made by ground/catalogue/generate_bright_stars.py: HR number; B - V [0.01 mag], as bytes 110-114 of the Bright",
+             "// Star Catalogue print it. Stars without are left out."]
+    lines += ["STAR_COLOUR(%d, %d)" % (row[0], row[7]) for row in sorted(stars, key=lambda row: row[0])
+              if row[7] is not None]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("catalogue", type=pathlib.Path, help="bsc5.dat")
@@ -93,7 +104,8 @@ def main():
     except OSError as error:
         sys.exit(f"{arguments.catalogue}: expected a readable file, found {error.strerror}")
     same = True
-    for path, text in ((STAR_TABLE, star_table(stars)), (NAME_TABLE, designation_table(stars))):
+    for path, text in ((STAR_TABLE, star_table(stars)), (NAME_TABLE, designation_table(stars)),
+                       (COLOUR_TABLE, colour_table(stars))):
         if arguments.check:
             matches = path.exists() and path.read_text() == text
             same = same and matches

@@ -94,12 +94,15 @@ TruthSpot read_spot(const Record& record, int cameras) {
     spot.kind = TruthSpot::Kind::kTarget;
     spot.body = record.text("body");
     spot.id = record.text("id");
+  } else if (kind == "planet") {
+    spot.kind = TruthSpot::Kind::kPlanet;
+    spot.id = record.text("name");
   } else if (kind == "moon") {
     spot.kind = TruthSpot::Kind::kMoon;
   } else if (kind == "sun") {
     spot.kind = TruthSpot::Kind::kSun;
   } else {
-    record.fail("kind", "star, target, moon or sun", kind);
+    record.fail("kind", "star, target, planet, moon or sun", kind);
   }
   spot.pixel = {record.number("u"), record.number("v")};
   spot.snr = record.number("snr");

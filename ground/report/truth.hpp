@@ -14,12 +14,12 @@
 namespace omma::ground {
 
 struct TruthSpot {
-  enum class Kind : std::uint8_t { kStar, kTarget, kMoon, kSun };
+  enum class Kind : std::uint8_t { kStar, kTarget, kMoon, kSun, kPlanet };
   Kind kind = Kind::kStar;
   int camera = 0;        ///< index in the rig
   std::uint16_t hr = 0;  ///< star: number in the Bright Star Catalogue
   std::string body;      ///< target: its body
-  std::string id;        ///< target: its name in the body's target file
+  std::string id;        ///< target: its name in the body's target file; planet: its name
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   double snr = 0;                                         ///< flux over its smallest possible deviation
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();  ///< of the pixel position [px⁻²]

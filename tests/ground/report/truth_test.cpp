@@ -93,7 +93,8 @@ TEST_F(Truth, NamesTheFieldThatIsWrong) {
   expect(R"("snr":9.5)", R"("snr":"high")", "spots[0].snr: expected a number, found");
   expect(R"([4,1,3])", "[4,1]", "spots[0].information: expected 3 numbers");
   expect(R"("camera":1)", R"("camera":2)", "spots[0].camera: expected a camera of the rig, 0 to 1, found");
-  expect(R"("kind":"moon")", R"("kind":"comet")", "spots[2].kind: expected star, target, planet, moon or sun");
+  expect(R"("kind":"moon")", R"("kind":"comet")",
+         "spots[2].kind: expected star, target, planet, moon or sun");
   expect(R"([1,0,0,0])", "[1,1,0,0]", "bodies[0].rig_from_body.quaternion_xyzw: expected a quaternion");
   expect(R"("frame":7)", R"("frame":-7)", "frame: expected a number from 0");
   expect(R"("time_ns":700000000)", R"("time_ns":0.7)", "time_ns: expected a whole number");

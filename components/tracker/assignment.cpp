@@ -34,9 +34,12 @@ double mahalanobis2(const Eigen::Vector2d& d, const Eigen::Matrix2d& c) {
 
 double chance_pairs(std::span<const PredictedPoint> predictions, const DotList& dots,
                     const AssignmentGate& gate, int width, int height) noexcept {
-  if (dots.dots.empty()) return 0;
+  if (dots.dots.empty() || predictions.empty()) return 0;
+  // However badly a dot is placed, it makes no more than one pair.
+  const double largest = static_cast<double>(width) * static_cast<double>(height) /
+                         (std::numbers::pi * gate.chi2 * static_cast<double>(predictions.size()));
   double variance = 0;
-  for (const Dot& dot : dots.dots) variance += 0.5 * dot.covariance.trace();
+  for (const Dot& dot : dots.dots) variance += std::min(0.5 * dot.covariance.trace(), largest);
   variance = variance / static_cast<double>(dots.dots.size()) + gate.floor_px * gate.floor_px;
   double area = 0;
   for (const PredictedPoint& point : predictions) {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "ground/calibrate/normal_equations.hpp"
-#include "ground/experiment/earth_fixed.hpp"
+#include "ground/compare_motion/earth_fixed.hpp"
 
 namespace omma::ground {
 namespace {
@@ -51,6 +51,8 @@ class Matcher {
   MotionMatch run();
 
  private:
+  bool residual(const TimedPose& a, const Guess& g, Vector6d& residual) const;
+  bool jacobian_at(const TimedPose& a, const Guess& g, const Vector6d& here, Eigen::MatrixXd& jacobian) const;
   std::vector<MatchPoint> residuals(const Guess& g) const;
   double cost(const Guess& g) const;
   Guess moved_by(const Guess& g, const Eigen::VectorXd& step) const;
@@ -83,16 +85,22 @@ Vector6d rms_of(const std::vector<MatchPoint>& points) {
   return (squares / std::max<double>(1, double(points.size()))).cwiseSqrt();
 }
 
+// False where B's time does not reach.
+bool Matcher::residual(const TimedPose& a, const Guess& g, Vector6d& residual) const {
+  Pose b;
+  if (!pose_at(b_, a.time + g.offset, b)) return false;
+  const Pose expected = g.left * b * g.right;
+  residual.setZero();
+  residual.head<3>() = rotation_log(a.pose.rotation * expected.rotation.conjugate());
+  if (!rotations_) residual.tail<3>() = a.pose.translation - expected.translation;
+  return true;
+}
+
 std::vector<MatchPoint> Matcher::residuals(const Guess& g) const {
   std::vector<MatchPoint> points;
   for (const TimedPose& a : a_) {
-    Pose b;
-    if (!pose_at(b_, a.time + g.offset, b)) continue;
-    const Pose expected = g.left * b * g.right;
     MatchPoint point{a.time, Vector6d::Zero()};
-    point.residual.head<3>() = rotation_log(a.pose.rotation * expected.rotation.conjugate());
-    if (!rotations_) point.residual.tail<3>() = a.pose.translation - expected.translation;
-    points.push_back(point);
+    if (residual(a, g, point.residual)) points.push_back(point);
   }
   return points;
 }
@@ -110,25 +118,32 @@ Guess Matcher::moved_by(const Guess& g, const Eigen::VectorXd& step) const {
           g.offset + (offset_at_ >= 0 ? step[offset_at_] : 0)};
 }
 
-// Derivatives by differences: a handful of unknowns, once.
-bool Matcher::sums_at(const Guess& g, NormalEquations& sums) const {
+// Derivatives by differences: a handful of unknowns, once. False where a step leaves B's time.
+bool Matcher::jacobian_at(const TimedPose& a, const Guess& g, const Vector6d& here,
+                          Eigen::MatrixXd& jacobian) const {
   constexpr double kStep = 1e-6;
-  const std::vector<MatchPoint> here = residuals(g);
-  sums = {Eigen::MatrixXd::Zero(size_, size_), Eigen::VectorXd::Zero(size_), 0};
-  std::vector<std::vector<MatchPoint>> ahead;
+  jacobian.resize(6, size_);
   for (int k = 0; k < size_; ++k) {
-    ahead.push_back(residuals(moved_by(g, kStep * Eigen::VectorXd::Unit(size_, k))));
-    if (ahead.back().size() != here.size()) return false;
-  }
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    Eigen::MatrixXd jacobian(6, size_);
-    for (int k = 0; k < size_; ++k)
-      jacobian.col(k) = (here[i].residual - ahead[static_cast<std::size_t>(k)][i].residual) / kStep;
-    sums.information += jacobian.transpose() * weight().asDiagonal() * jacobian;
-    sums.gradient += jacobian.transpose() * weight().cwiseProduct(here[i].residual);
-    sums.cost += here[i].residual.dot(weight().cwiseProduct(here[i].residual));
+    Vector6d ahead;
+    if (!residual(a, moved_by(g, kStep * Eigen::VectorXd::Unit(size_, k)), ahead)) return false;
+    jacobian.col(k) = (here - ahead) / kStep;
   }
   return true;
+}
+
+bool Matcher::sums_at(const Guess& g, NormalEquations& sums) const {
+  sums = {Eigen::MatrixXd::Zero(size_, size_), Eigen::VectorXd::Zero(size_), 0};
+  int count = 0;
+  for (const TimedPose& a : a_) {
+    Vector6d here;
+    Eigen::MatrixXd jacobian;
+    if (!residual(a, g, here) || !jacobian_at(a, g, here, jacobian)) continue;
+    sums.information += jacobian.transpose() * weight().asDiagonal() * jacobian;
+    sums.gradient += jacobian.transpose() * weight().cwiseProduct(here);
+    sums.cost += here.dot(weight().cwiseProduct(here));
+    ++count;
+  }
+  return count >= 3;
 }
 
 bool Matcher::descend(Guess& g, NormalEquations& sums) const {

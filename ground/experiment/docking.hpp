@@ -2,10 +2,12 @@
 // of one run many times. Text, JSON and pages.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ground/experiment/chain.hpp"
+#include "ground/experiment/reference.hpp"
 #include "ground/experiment/rig_pictures.hpp"
 
 namespace omma::ground {
@@ -16,6 +18,8 @@ struct DockingTrial {
   PoseEvaluation pose;  ///< of the mission's first body
   PairCheck pairs;
   double duration = 0;  ///< [s]
+  Reference reference;
+  std::optional<PlatformMatch> platform;  ///< where the platform's motion stood in for the truth
 };
 
 /// @throws InputError where the mission has no body or its pose was never found

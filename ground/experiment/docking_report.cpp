@@ -81,13 +81,34 @@ std::string charts(const DockingTrial& t) {
   return "<div class='charts'>" + html + "</div>";
 }
 
+// The clock's offset and the mounting, which are found from the motion and no part of the errors.
+std::string platform_text(const PlatformMatch& p) {
+  std::string text;
+  for (const auto& [what, m] : {std::pair{"attitude", &p.attitude}, std::pair{"pose", &p.pose}})
+    text +=
+        format("platform         by %s: clock ahead %.4f +- %.4f s, mounting known to %.4f deg and %.2f mm\n",
+               what, m->offset, m->offset_sigma, m->right_sigma.head<3>().norm() / kDegree,
+               1e3 * m->right_sigma.tail<3>().norm());
+  return text;
+}
+
+nlohmann::ordered_json match_json(const MotionMatch& m) {
+  return {{"time_offset_s", m.offset},
+          {"time_offset_sigma_s", m.offset_sigma},
+          {"left_turn_deg", rotation_log(m.left.rotation).norm() / kDegree},
+          {"right_turn_deg", rotation_log(m.right.rotation).norm() / kDegree},
+          {"left_sigma_deg", m.left_sigma.head<3>().norm() / kDegree},
+          {"right_sigma_deg", m.right_sigma.head<3>().norm() / kDegree}};
+}
+
 }  // namespace
 
 DockingTrial docking_trial(const ChainRun& run) {
   if (run.evaluation.poses.empty())
     throw InputError("mission", 0, "body", "at least one body, whose pose is looked for", "none");
-  DockingTrial trial{run.evaluation.attitude, run.evaluation.poses.front(), run.evaluation.pairs,
-                     run.evaluation.duration};
+  DockingTrial trial{run.evaluation.attitude, run.evaluation.poses.front(),
+                     run.evaluation.pairs,    run.evaluation.duration,
+                     run.reference,           std::nullopt};
   if (trial.pose.points.empty())
     throw InputError("flight.mcap", 0, trial.pose.body, "at least one pose", "none found");
   return trial;
@@ -97,7 +118,8 @@ std::string docking_text(const DockingTrial& t) {
   std::string text = format("%s       pose in %zu of %zu frame sets, range %.2f m; attitude in %zu of %zu\n",
                             t.pose.body.c_str(), t.pose.points.size(), t.pose.frames, t.pose.first_range,
                             t.attitude.points.size(), t.attitude.frames);
-  text += "                      rms      bound   rms/bound   dissertation\n";
+  const std::string bound = t.reference.bound_name();
+  text += format("                      rms %10s   rms/%s   dissertation\n", bound.c_str(), bound.c_str());
   for (int axis = 0; axis < 3; ++axis) {
     text += format("position %s [mm] %10.3f %10.3f %10.3f %12.1f\n", kAxes[static_cast<std::size_t>(axis)],
                    1e3 * t.pose.rms[3 + axis], 1e3 * t.pose.bound_rms[3 + axis],
@@ -120,15 +142,19 @@ std::string docking_text(const DockingTrial& t) {
   text += format("NEES             pose %.2f of 6 (%.2f to %.2f), attitude %.2f of 3 (%.2f to %.2f)\n",
                  t.pose.nees.mean, t.pose.nees.low, t.pose.nees.high, t.attitude.nees.mean,
                  t.attitude.nees.low, t.attitude.nees.high);
-  return text + format("pairings         %zu right, %zu wrong, %zu too faint to judge\n", t.pairs.right,
-                       t.pairs.wrong, t.pairs.unknown);
+  if (t.platform) text += platform_text(*t.platform);
+  return text + t.reference.pairs_text("pairings         ", t.pairs);
 }
 
 std::string docking_json(const DockingTrial& t) {
   const auto three = [](const auto& v, int first, double unit) {
     return std::vector<double>{v[first] / unit, v[first + 1] / unit, v[first + 2] / unit};
   };
-  nlohmann::ordered_json json{{"experiment", "orientation-docking-imaging"}, {"duration_s", t.duration}};
+  nlohmann::ordered_json json{{"experiment", "orientation-docking-imaging"},
+                              {"reference", t.reference.name},
+                              {"recorded", t.reference.recorded},
+                              {"bound_from", t.reference.bound_name()},
+                              {"duration_s", t.duration}};
   json["pose"] = {
       {"frames", t.pose.frames},
       {"solved", t.pose.points.size()},
@@ -148,6 +174,9 @@ std::string docking_json(const DockingTrial& t) {
       {"bound_rms_arcsec", three(t.attitude.bound_rms, 0, kArcsec)},
       {"nees",
        {{"mean", t.attitude.nees.mean}, {"low", t.attitude.nees.low}, {"high", t.attitude.nees.high}}}};
+  if (t.platform)
+    json["platform"] = {{"by_attitude", match_json(t.platform->attitude)},
+                        {"by_pose", match_json(t.platform->pose)}};
   json["pairings"] = {{"right", t.pairs.right}, {"wrong", t.pairs.wrong}, {"unknown", t.pairs.unknown}};
   json["dissertation"] = {{"position_rms_in", kDissertationInches},
                           {"position_rms_of_range", kDissertationPart},
@@ -165,17 +194,22 @@ std::string docking_page(const DockingTrial& t, const std::vector<RigPicture>& p
                        t.duration, t.pose.first_range, t.attitude.frames));
   html += figures_row(
       figure(format("%.3f %%", 100 * t.pose.position_part.rms),
-             format("position rms, of the range: %.2f times the bound; the dissertation has %.1f %%",
-                    t.pose.position_part.ratio(), 100 * kDissertationPart)) +
+             format("position rms, of the range: %.2f times the %s; the dissertation has %.1f %%",
+                    t.pose.position_part.ratio(), t.reference.bound_name(), 100 * kDissertationPart)) +
       figure(format("%.2f&deg;", t.pose.rotation.rms / kDegree),
-             format("rotation rms of three axes: %.2f times the bound; the dissertation has 3.95, 1.37 and "
+             format("rotation rms of three axes: %.2f times the %s; the dissertation has 3.95, 1.37 and "
                     "1.22&deg;",
-                    t.pose.rotation.ratio())) +
+                    t.pose.rotation.ratio(), t.reference.bound_name())) +
       figure(format("%.0f&Prime;", t.attitude.rms.norm() / kArcsec),
              "attitude rms of three axes; the dissertation has about 360&Prime;") +
-      figure(format("%zu", t.pairs.wrong), format("wrong pairings of %zu", t.pairs.right + t.pairs.wrong)));
+      (t.reference.knows_spots ? figure(format("%zu", t.pairs.wrong),
+                                        format("wrong pairings of %zu", t.pairs.right + t.pairs.wrong))
+                               : figure(format("%.2f, %.2f", t.pose.nees.mean, t.attitude.nees.mean),
+                                        "NEES of pose and attitude; honest covariances give 6 and 3")));
+  const std::string bound = t.reference.bound_name();
   html += "<h2>Beside the dissertation</h2>" +
-          table({"error", "rms here", "bound", "rms / bound", "dissertation"}, table_rows(t));
+          table({"error", "rms here", bound, "rms / " + bound, "dissertation"}, table_rows(t));
+  if (t.platform) html += "<h2>The platform</h2><pre>" + escaped(platform_text(*t.platform)) + "</pre>";
   html += "<h2>Errors, with the estimate's own 3-sigma envelope</h2>" + charts(t) + "<h2>Imagery</h2>";
   if (!panorama.empty())
     html += picture(panorama,
@@ -184,8 +218,8 @@ std::string docking_page(const DockingTrial& t, const std::vector<RigPicture>& p
   for (const RigPicture& one : pictures)
     html += picture(one.png,
                     one.camera + ": stars used green, targets blue, pairs culled red, unpaired dots grey.");
-  return html +
-         "<p class='note'>Frames are rendered. Errors are true minus estimated in the rig frame; the "
+  return html + "<p class='note'>" + t.reference.note() +
+         " Errors are true minus estimated in the rig frame; the "
          "dissertation's are in the frame of its card.</p>" +
          page_end();
 }

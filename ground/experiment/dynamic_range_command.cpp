@@ -129,7 +129,7 @@ std::vector<GreyImage> images_in(const std::string& folder, const std::string& o
 // Where the camera looked is solved from the average of its own images.
 SequenceResult of_recording(const Arguments& a) {
   Sequence sequence;
-  sequence.images = images_in(a.recorded, "--recorded");
+  sequence.images = images_in(a.recorded, "--recording");
   if (!a.dark.empty()) sequence.black_frame = mean_of(images_in(a.dark, "--dark"));
   Rig rig;
   rig.name = Name("camera");
@@ -172,13 +172,13 @@ DynamicRangeResult run(const Arguments& a) {
   DynamicRangeResult result;
   if (!a.recorded.empty()) {
     if (a.lens.empty())
-      throw InputError("arguments", 0, "--lens", "the camera's lens file, with --recorded", "none");
+      throw InputError("arguments", 0, "--lens", "the camera's lens file, with --recording", "none");
     result.recorded = true;
     result.sequences.push_back(of_recording(a));
     return result;
   }
   if (a.scenario.empty())
-    throw InputError("arguments", 0, "--scenario", "--scenario or --recorded", "neither");
+    throw InputError("arguments", 0, "--scenario", "--scenario or --recording", "neither");
   sim::Scenario scenario = sim::read_scenario_file(a.scenario);
   if (a.frames > 0) scenario.frames = a.frames;
   if (!scenario.sensors[0].logarithmic)
@@ -219,10 +219,10 @@ void add_dynamic_range(CLI::App& experiment, CommandContext& context) {
       "The dimmest star against blacklevel, and with a lamp as bright as the Sun on the lens");
   command->add_option("--scenario", a->scenario,
                       "Scenario with a logarithmic camera and a card: frames are rendered");
-  command->add_option("--recorded", a->recorded,
+  command->add_option("--recording", a->recorded,
                       "Folder of one camera's images of the same sky, instead of rendering");
-  command->add_option("--dark", a->dark, "With --recorded: folder of images with the lens covered");
-  command->add_option("--lens", a->lens, "With --recorded: the camera's lens file");
+  command->add_option("--dark", a->dark, "With --recording: folder of images with the lens covered");
+  command->add_option("--lens", a->lens, "With --recording: the camera's lens file");
   command->add_option("--output", a->output, "Folder for the report and the composites")->required();
   command->add_option("--blacklevels", a->blacklevels, "Settings to try")
       ->delimiter(',')

@@ -3,41 +3,44 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "ground/experiment/experiment.hpp"
+#include "ground/experiment/reference.hpp"
+#include "ground/experiment/run_arguments.hpp"
 #include "ground/page/page.hpp"
-#include "sim/scenario_file.hpp"
 
 namespace omma::ground {
 namespace {
 
-struct EarthRotationArguments {
-  std::string scenario;
-  std::string mission;
-  std::string output;
-  int frames = 0;
-  bool keep_frames = false;
-};
-
-int earth_rotation(const EarthRotationArguments& arguments) {
-  sim::Scenario scenario = sim::read_scenario_file(arguments.scenario);
-  if (arguments.frames > 0) scenario.frames = arguments.frames;
+ChainRun rendered(const RunArguments& arguments) {
+  sim::Scenario scenario = scenario_of(arguments);
   const Pose start = scenario.rig_motion.at(0);  // j2000_from_rig
   scenario.rig_motion =
       sim::Motion::constant(start, Eigen::Vector3d::Zero(), earth_fixed_rate(start.rotation.conjugate()));
   make_folder(arguments.output, "--output");
+  return run_chain(scenario, arguments.mission, arguments.output, processors());
+}
+
+// Without a truth of its own a recording is judged by what the experiment is: the rig stood still.
+ChainRun recorded(const RunArguments& arguments) {
+  make_folder(arguments.output, "--output");
+  ChainRun run = fly_recording(arguments.recordings.front(), arguments.mission, arguments.output);
+  if (run.truth.empty()) judge_at_rest(run);
+  return run;
+}
+
+int earth_rotation(const RunArguments& arguments) {
+  check_run_arguments(arguments);
   const std::filesystem::path folder = arguments.output;
-  const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const EarthRotationResult result =
-      earth_rotation_result(run_chain(scenario, arguments.mission, folder, threads));
+      earth_rotation_result(arguments.recordings.empty() ? rendered(arguments) : recorded(arguments));
   std::fputs(earth_rotation_text(result).c_str(), stdout);
-  const std::vector<RigPicture> pictures = rig_pictures(result.run, folder / "frames");
+  const std::vector<RigPicture> pictures = rig_pictures(result.run);
   for (const RigPicture& picture : pictures)
     write_bytes((folder / (picture.camera + ".png")).string(), picture.png);
   write_text_file((folder / "earth_rotation.json").string(), earth_rotation_json(result));
   write_text_file((folder / "earth_rotation.html").string(), earth_rotation_page(result, pictures));
-  if (!arguments.keep_frames) remove_frames(folder, scenario.rig);
+  if (arguments.recordings.empty() && !arguments.keep_frames) remove_frames(folder, result.run.mission.rig);
   std::printf("report     %s\n", (folder / "earth_rotation.html").c_str());
   return 0;
 }
@@ -45,20 +48,11 @@ int earth_rotation(const EarthRotationArguments& arguments) {
 }  // namespace
 
 void add_earth_rotation(CLI::App& experiment, CommandContext& context) {
-  auto arguments = std::make_shared<EarthRotationArguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = experiment.add_subcommand(
       "earth-rotation",
       "A rig at rest watches the sky turn: attitude against the Earth's rate and the truth");
-  command
-      ->add_option("--scenario", arguments->scenario,
-                   "Scenario file; its trajectory's rate is set to the Earth's")
-      ->required();
-  command->add_option("--mission", arguments->mission, "Mission file to fly it with")->required();
-  command->add_option("--output", arguments->output, "Folder for the frames, the log and the report")
-      ->required();
-  command->add_option("--frames", arguments->frames, "Frame sets, instead of the scenario's number")
-      ->check(CLI::Range(3, 1'000'000));
-  command->add_flag("--keep-frames", arguments->keep_frames, "Keep the rendered images (about a gigabyte)");
+  add_run_options(*command, *arguments, "Scenario file; its trajectory's rate is set to the Earth's", 1);
   command->callback([arguments, &context] { context.exit_code = earth_rotation(*arguments); });
 }
 

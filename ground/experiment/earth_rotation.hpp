@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "ground/compare_motion/earth_fixed.hpp"
 #include "ground/experiment/chain.hpp"
-#include "ground/experiment/earth_fixed.hpp"
 #include "ground/experiment/rig_pictures.hpp"
 
 namespace omma::ground {

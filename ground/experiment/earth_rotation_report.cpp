@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "fsw/kernel/input_error.hpp"
 #include "ground/experiment/earth_rotation.hpp"
+#include "ground/experiment/reference.hpp"
 #include "ground/format.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
@@ -32,18 +32,10 @@ double ratio(const AttitudeEvaluation& a, int axis) {
 
 EarthRotationResult earth_rotation_result(ChainRun run) {
   EarthRotationResult result;
-  std::vector<TimedAttitude> attitudes;
+  result.stationary = stationary_rig(timed_attitudes(run.log));
   std::vector<double> stars;
-  for (const omma_Attitude& a : run.log.attitudes) {
-    if (!a.valid) continue;
-    attitudes.push_back({1e-9 * static_cast<double>(a.time_ns),
-                         {a.rig_from_j2000.w, a.rig_from_j2000.x, a.rig_from_j2000.y, a.rig_from_j2000.z}});
-    stars.push_back(a.stars_used);
-  }
-  if (attitudes.size() < 3)
-    throw InputError("flight.mcap", 0, "attitudes", "at least three that are valid",
-                     std::to_string(attitudes.size()));
-  result.stationary = stationary_rig(attitudes);
+  for (const omma_Attitude& a : run.log.attitudes)
+    if (a.valid) stars.push_back(a.stars_used);
   double squares = 0;
   for (const double n : stars) result.stars_mean += n / double(stars.size());
   for (const double n : stars) squares += (n - result.stars_mean) * (n - result.stars_mean);
@@ -59,7 +51,9 @@ std::string earth_rotation_text(const EarthRotationResult& r) {
   std::string text = format(
       "attitude   %zu of %zu frame sets in %.1f min, %.1f stars (sigma %.1f, %d to %d)\n", a.points.size(),
       a.frames, r.run.evaluation.duration / 60, r.stars_mean, r.stars_deviation, r.stars_least, r.stars_most);
-  text += "against the truth, rig axes            rms [arcsec]   bound   rms / bound\n";
+  const Reference& reference = r.run.reference;
+  text += format("against %-30s rms [arcsec] %9s   rms / %s\n", (reference.name + ", rig axes").c_str(),
+                 reference.bound_name(), reference.bound_name());
   for (int axis = 0; axis < 3; ++axis) {
     text += format("  about %s %37.2f %9.2f %11.3f\n", kAxis[axis], a.rms[axis] / kArcsec,
                    a.bound_rms[axis] / kArcsec, ratio(a, axis));
@@ -72,8 +66,7 @@ std::string earth_rotation_text(const EarthRotationResult& r) {
   text += format("Earth rate measured %.6f +- %.6f deg/min (%.6f)\n",
                  r.stationary.measured_rate / kDegreesAMinute,
                  r.stationary.measured_rate_sigma / kDegreesAMinute, kEarthRate / kDegreesAMinute);
-  text += format("pairings   %zu right, %zu wrong, %zu too faint to judge\n", r.run.evaluation.pairs.right,
-                 r.run.evaluation.pairs.wrong, r.run.evaluation.pairs.unknown);
+  text += reference.pairs_text("pairings   ", r.run.evaluation.pairs);
   return text + format("time       rendered in %.1f s, flown in %.1f s\n", r.run.render_seconds,
                        r.run.flight_seconds);
 }
@@ -82,6 +75,9 @@ std::string earth_rotation_json(const EarthRotationResult& r) {
   const AttitudeEvaluation& a = r.run.evaluation.attitude;
   nlohmann::ordered_json json;
   json["experiment"] = "earth-rotation";
+  json["reference"] = r.run.reference.name;
+  json["recorded"] = r.run.reference.recorded;
+  json["bound_from"] = r.run.reference.bound_name();
   json["duration_s"] = r.run.evaluation.duration;
   json["frames"] = a.frames;
   json["solved"] = a.points.size();
@@ -114,7 +110,7 @@ std::string comparison_table(const EarthRotationResult& r) {
   std::vector<std::vector<std::string>> rows;
   rows.reserve(6);
   for (int axis = 0; axis < 3; ++axis) {
-    rows.push_back({std::string("against the truth, about rig ") + kAxis[axis],
+    rows.push_back({"against " + escaped(r.run.reference.name) + ", about rig " + kAxis[axis],
                     format("%.2f&Prime;", a.rms[axis] / kArcsec),
                     format("%.2f&Prime;", a.bound_rms[axis] / kArcsec), format("%.3f", ratio(a, axis)),
                     "not measured"});
@@ -124,7 +120,8 @@ std::string comparison_table(const EarthRotationResult& r) {
                     format("%.2f&Prime;", r.stationary.rms[axis] / kArcsec), "", "",
                     axis == 2 ? format("%.0f&Prime;", kDissertationRms) : "a bias of the rig"});
   }
-  return table({"error", "rms here", "bound", "rms / bound", "dissertation"}, rows);
+  const std::string bound = r.run.reference.bound_name();
+  return table({"error", "rms here", bound, "rms / " + bound, "dissertation"}, rows);
 }
 
 std::string stars_table(const EarthRotationResult& r) {
@@ -167,8 +164,8 @@ std::string earth_rotation_page(const EarthRotationResult& r, const std::vector<
              r.run.evaluation.duration / 60, a.frames, r.run.mission.rig.cameras.size()));
   html += figures_row(
       figure(format("%.1f&Prime;", a.rms[worst] / kArcsec),
-             format("rms about the worst axis, %s: %.2f times the Cram&eacute;r&ndash;Rao bound",
-                    kAxis[worst], ratio(a, worst))) +
+             format("rms about the worst axis, %s: %.2f times the %s", kAxis[worst], ratio(a, worst),
+                    r.run.reference.knows_spots ? "Cram&eacute;r&ndash;Rao bound" : "estimate's own sigma")) +
       figure(format("%.1f&Prime;", r.stationary.rms.z() / kArcsec),
              format("rms about the celestial pole, de-rotated; the dissertation has %.0f&Prime;",
                     kDissertationRms)) +
@@ -183,11 +180,9 @@ std::string earth_rotation_page(const EarthRotationResult& r, const std::vector<
   for (const RigPicture& one : pictures)
     html += picture(one.png, one.camera + ": stars used green, pairs culled red, unpaired dots grey.");
   html +=
-      "<p class='note'>Frames are rendered. De-rotated: the Earth's mean turn about the celestial pole is "
-      "taken out of "
-      "the attitudes, and what differs from their mean is left; this needs no truth and is what the "
-      "dissertation did. "
-      "The bound counts the spots whose signal-to-noise ratio reaches the flight extractor's threshold.</p>";
+      "<p class='note'>" + r.run.reference.note() +
+      " De-rotated: the Earth's mean turn about the celestial pole is taken out of the attitudes, and what "
+      "differs from their mean is left; this needs no truth and is what the dissertation did.</p>";
   return html + page_end();
 }
 

@@ -95,7 +95,7 @@ std::string repetition_text(const std::vector<DockingTrial>& trials) {
     text += format("%5s  %8.4f %8.4f %8.4f  %8.4f %8.4f %8.4f\n", name, v[0], v[1], v[2], v[3], v[4], v[5]);
   };
   line("mean", s.mean);
-  line("bound", s.bound);
+  line(trials.front().reference.knows_spots ? "bound" : "own", s.bound);
   line("sigma", s.deviation);
   line("chance", s.expected_deviation);
   return text;
@@ -103,8 +103,11 @@ std::string repetition_text(const std::vector<DockingTrial>& trials) {
 
 std::string repetition_json(const std::vector<DockingTrial>& trials) {
   const TrialSpread s = trial_spread(trials);
-  nlohmann::ordered_json json{
-      {"experiment", "repetition"}, {"axes", kNames}, {"units", {"deg", "deg", "deg", "mm", "mm", "mm"}}};
+  nlohmann::ordered_json json{{"experiment", "repetition"},
+                              {"recorded", trials.front().reference.recorded},
+                              {"bound_from", trials.front().reference.bound_name()},
+                              {"axes", kNames},
+                              {"units", {"deg", "deg", "deg", "mm", "mm", "mm"}}};
   json["trials"] = nlohmann::ordered_json::array();
   for (const DockingTrial& t : trials) {
     json["trials"].push_back({{"rms", in_units(t.pose.rms)},
@@ -126,17 +129,18 @@ std::string repetition_page(const std::vector<DockingTrial>& trials) {
   const TrialSpread s = trial_spread(trials);
   std::string figures;
   for (int axis = 0; axis < 6; ++axis) {
-    figures += figure(
-        format("%.3f %s", s.mean[axis] / unit(axis), axis < 3 ? "&deg;" : "mm"),
-        format("%s: mean rms of %zu trials, %.2f times the bound; between trials &plusmn; %.1f %% where "
-               "chance makes %.1f %%",
-               kNames[axis], trials.size(), s.bound[axis] > 0 ? s.mean[axis] / s.bound[axis] : 0,
-               100 * s.deviation[axis] / s.mean[axis], 100 * s.expected_deviation[axis] / s.mean[axis]));
+    figures +=
+        figure(format("%.3f %s", s.mean[axis] / unit(axis), axis < 3 ? "&deg;" : "mm"),
+               format("%s: mean rms of %zu trials, %.2f times the %s; between trials &plusmn; %.1f %% where "
+                      "chance makes %.1f %%",
+                      kNames[axis], trials.size(), s.bound[axis] > 0 ? s.mean[axis] / s.bound[axis] : 0,
+                      trials.front().reference.bound_name(), 100 * s.deviation[axis] / s.mean[axis],
+                      100 * s.expected_deviation[axis] / s.mean[axis]));
   }
   std::string charts;
   for (int axis = 0; axis < 6; ++axis) {
     XySeries rms{"rms", "a", Mark::kPoints, {}};
-    XySeries bound{"bound", "b", Mark::kDashed, {}};
+    XySeries bound{trials.front().reference.bound_name(), "b", Mark::kDashed, {}};
     for (std::size_t i = 0; i < trials.size(); ++i) {
       rms.points.emplace_back(i + 1, trials[i].pose.rms[axis] / unit(axis));
       bound.points.emplace_back(i + 1, trials[i].pose.bound_rms[axis] / unit(axis));
@@ -152,7 +156,10 @@ std::string repetition_page(const std::vector<DockingTrial>& trials) {
   return page_head("Omma: repetition", "Repetition experiment",
                    format("The same docking run, %zu times.", trials.size())) +
          figures_row(figures) + "<h2>Trials</h2><div class='charts'>" + charts + "</div>" +
-         "<p class='note'>Frames are rendered; every trial has its own noise and stands slightly elsewhere. "
+         "<p class='note'>" + trials.front().reference.note() +
+         (trials.front().reference.recorded
+              ? " "
+              : " Every trial has its own noise and stands slightly elsewhere. ") +
          "A trial's rms "
          "is known to 1/&radic;(2 n) of itself, n its number of frame sets: a spread between trials beyond "
          "that would "

@@ -1,7 +1,6 @@
 // One frame of each camera of a run, with what its dots were taken for, for the page of an experiment.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,6 @@ struct RigPicture {
 };
 
 /// Of the frame set in the middle of those whose dots the log has; empty where there is none.
-std::vector<RigPicture> rig_pictures(const ChainRun& run, const std::filesystem::path& frames);
+std::vector<RigPicture> rig_pictures(const ChainRun& run);
 
 }  // namespace omma::ground

@@ -93,6 +93,7 @@ struct Judge {
   double time;
   SpotChoice counts;
   std::vector<TruthSpot> used;
+  BoundFrom bound;
 };
 
 AttitudeError attitude_error(const Judge& judge, const omma_Attitude& sample) {
@@ -104,7 +105,10 @@ AttitudeError attitude_error(const Judge& judge, const omma_Attitude& sample) {
   const Eigen::Matrix3d covariance = Eigen::Map<const Eigen::Matrix3d>(sample.covariance_rad2);
   point.sigma = covariance.diagonal().cwiseSqrt();
   point.nees = squared_in_sigmas<3>(point.error, covariance);
-  point.bound = sigmas_of_bound(attitude_information(judge.mission.rig, judge.truth.spots, judge.counts));
+  point.bound =
+      judge.bound == BoundFrom::kEstimate
+          ? point.sigma
+          : sigmas_of_bound(attitude_information(judge.mission.rig, judge.truth.spots, judge.counts));
   point.used_bound = sigmas_of_bound(attitude_information(judge.mission.rig, judge.used, kAll));
   return point;
 }
@@ -132,7 +136,10 @@ PoseError pose_error(const Judge& judge, const TargetBody& body, const Pose& rig
   point.sigma = covariance.diagonal().cwiseSqrt();
   point.nees = squared_in_sigmas<6>(point.error, covariance);
   const Rig& rig = judge.mission.rig;
-  point.bound = sigmas_of_bound(pose_information(rig, judge.truth.spots, body, rig_from_body, judge.counts));
+  point.bound =
+      judge.bound == BoundFrom::kEstimate
+          ? point.sigma
+          : sigmas_of_bound(pose_information(rig, judge.truth.spots, body, rig_from_body, judge.counts));
   point.used_bound = sigmas_of_bound(pose_information(rig, judge.used, body, rig_from_body, kAll));
   return point;
 }
@@ -226,7 +233,7 @@ SpotCount count_spots(const TruthFrame& frame, double time, const SpotChoice& co
 }  // namespace
 
 Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& truth, const FlightLog& log,
-                    const std::string& log_path) {
+                    const std::string& log_path, BoundFrom bound) {
   const auto seconds = [&](const TruthFrame& frame) {
     return 1e-9 * static_cast<double>(frame.time_ns - truth.front().time_ns);
   };
@@ -241,7 +248,8 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
     const auto dots = log.dots.find(frame.frame);
     const Dots& seen = dots == log.dots.end() ? kNoDots : dots->second;
     const SpotsByName names(frame, mission.bodies);
-    judges.emplace(frame.frame, Judge{mission, frame, seconds(frame), counts, used_spots(seen, names)});
+    judges.emplace(frame.frame,
+                   Judge{mission, frame, seconds(frame), counts, used_spots(seen, names), bound});
     check_pairs(seen, names, evaluation.pairs);
     evaluation.counts.push_back(count_spots(frame, seconds(frame), counts, seen));
   }

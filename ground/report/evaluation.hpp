@@ -101,8 +101,14 @@ struct Evaluation {
   std::vector<SpotCount> counts;
 };
 
+/// Where the bounds of the points come from.
+enum class BoundFrom {
+  kSpots,     ///< the truth's spots: Cramér–Rao
+  kEstimate,  ///< a truth that knows no spots (another instrument's): the estimate's own covariance
+};
+
 /// @throws InputError where the log has a frame set that the truth does not, or a body the mission does not
 Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& truth, const FlightLog& log,
-                    const std::string& log_path);
+                    const std::string& log_path, BoundFrom bound = BoundFrom::kSpots);
 
 }  // namespace omma::ground

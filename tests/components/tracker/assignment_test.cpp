@@ -152,5 +152,27 @@ TEST(ChancePairs, AreAsManyAsDotsAtRandomGive) {
   EXPECT_TRUE(beyond_chance(5, 0, 5));
 }
 
+// A full Moon's fit can run away and place its dot to thousands of pixels: one pair by chance, not hundreds,
+// or the whole sky would count as lost.
+TEST(ChancePairs, OneDotPlacedVeryBadlyMakesNoMoreThanOne) {
+  auto dots = std::make_unique<DotList>();
+  for (int i = 0; i < 25; ++i) {
+    Dot dot;
+    dot.pixel = {20.0 * i + 30, 15.0 * i + 30};
+    dot.covariance = 0.01 * Eigen::Matrix2d::Identity();
+    dots->dots.push_back(dot);
+  }
+  std::vector<PredictedPoint> predictions(40);
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
+    predictions[i].pixel = {15.0 * static_cast<double>(i) + 10, 240};
+    predictions[i].covariance = 0.01 * Eigen::Matrix2d::Identity();
+  }
+  const AssignmentGate gate;
+  const double before = chance_pairs(predictions, *dots, gate, 640, 480);
+  dots->dots[0].covariance = 1e7 * Eigen::Matrix2d::Identity();
+  EXPECT_LT(chance_pairs(predictions, *dots, gate, 640, 480), before + 1.01);
+  EXPECT_TRUE(beyond_chance(25, chance_pairs(predictions, *dots, gate, 640, 480), 5));
+}
+
 }  // namespace
 }  // namespace omma

@@ -3,6 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "components/geometry/pose.hpp"
+#include "ground/format.hpp"
+#include "ground/report/truth.hpp"
 #include "tests/ground/run_omma.hpp"
 #include "tests/paths.hpp"
 
@@ -79,6 +82,128 @@ TEST(Docking, RefusesAScenarioWithoutACardAndAMissionWithoutABody) {
   EXPECT_EQ(folder.omma("experiment repetition" + kDocking + " --trials 1 --output run").exit_code, 2);
 }
 
+// What a truth camera beside the rig would have seen of its platform: another frame, another origin, and a
+// clock that is a tenth of a second ahead.
+std::string platform_table(const std::filesystem::path& truth) {
+  const Pose rig_from_platform{rotation_exp({0.1, -0.7, 0.3}), {0.05, -0.12, 0.2}};
+  const Pose camera_from_room{rotation_exp({0.9, 0.4, -0.2}), {0.3, 1.1, 2.0}};
+  std::string text = "time_s,qx,qy,qz,qw,x_m,y_m,z_m\n";
+  for (const ground::TruthFrame& frame : ground::read_truth(truth, 3)) {
+    // The card stands still: it is the room.
+    const Pose p = camera_from_room * frame.bodies.front().rig_from_body.inverse() * rig_from_platform;
+    const Eigen::Quaterniond& q = p.rotation;
+    const Eigen::Vector3d& t = p.translation;
+    text +=
+        ground::format("%.9f,%.12f,%.12f,%.12f,%.12f,%.9f,%.9f,%.9f\n", 1e-9 * double(frame.time_ns) + 0.1,
+                       q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z());
+  }
+  return text;
+}
+
+TEST(EarthRotation, TakesARecordingAndJudgesItByItsTruthOrByARigAtRest) {
+  const OperatorsFolder folder;
+  const std::string mission = " --mission " + kConfig + "earth_rotation.toml";
+  ASSERT_EQ(
+      folder.omma("experiment earth-rotation" + kFiles + " --frames 12 --keep-frames --output run").exit_code,
+      0);
+  const Told again =
+      folder.omma("experiment earth-rotation --recording run/frames" + mission + " --output again");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const auto first = nlohmann::json::parse(folder.read("run/earth_rotation.json"));
+  const auto second = nlohmann::json::parse(folder.read("again/earth_rotation.json"));
+  EXPECT_EQ(first["rms_arcsec"], second["rms_arcsec"]);
+  EXPECT_EQ(first["bound_rms_arcsec"], second["bound_rms_arcsec"]);
+  EXPECT_EQ(second["recorded"], true);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run/frames/hdr1"));  // a recording is never removed
+
+  std::filesystem::remove(folder / "run/frames/truth.jsonl");
+  const Told alone =
+      folder.omma("experiment earth-rotation --recording run/frames" + mission + " --output alone");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_THAT(alone.out, HasSubstr("against a rig at rest, rig axes"));
+  const auto third = nlohmann::json::parse(folder.read("alone/earth_rotation.json"));
+  EXPECT_EQ(third["bound_from"], "own sigma");
+  for (int axis = 0; axis < 3; ++axis) {  // twelve frame sets, less their mean
+    EXPECT_GT(third["rms_over_bound"][axis].get<double>(), 0.4);
+    EXPECT_LT(third["rms_over_bound"][axis].get<double>(), 1.6);
+  }
+}
+
+TEST(Docking, TakesARecordingAndAPlatformThatATruthCameraWatched) {
+  const OperatorsFolder folder;
+  const std::string mission = " --mission " + kConfig + "docking.toml";
+  ASSERT_EQ(folder
+                .omma("experiment orientation-docking-imaging" + kDocking +
+                      " --frames 40 --keep-frames --output run")
+                .exit_code,
+            0);
+  const Told twice =
+      folder.omma("experiment repetition --recording run/frames run/frames" + mission + " --output twice");
+  ASSERT_EQ(twice.exit_code, 0) << twice.err;
+  const auto trials = nlohmann::json::parse(folder.read("twice/repetition.json"));
+  EXPECT_EQ(trials["trials"][0]["rms"], trials["trials"][1]["rms"]);  // the same frames
+  EXPECT_EQ(trials["trials"][0]["solved"], 40);
+
+  folder.write("platform.csv", platform_table(folder / "run/frames/truth.jsonl"));
+  std::filesystem::remove(folder / "run/frames/truth.jsonl");
+  const Told told =
+      folder.omma("experiment orientation-docking-imaging --recording run/frames --platform platform.csv" +
+                  mission + " --output watched");
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const auto json = nlohmann::json::parse(folder.read("watched/docking.json"));
+  EXPECT_EQ(json["reference"], "platform.csv");
+  for (const char* by : {"by_attitude", "by_pose"}) {
+    EXPECT_NEAR(json["platform"][by]["time_offset_s"].get<double>(), 0.1,
+                4 * json["platform"][by]["time_offset_sigma_s"].get<double>() + 1e-3);
+  }
+  EXPECT_LT(json["platform"]["by_attitude"]["time_offset_sigma_s"].get<double>(), 0.02);
+  EXPECT_GT(json["pose"]["position_over_bound"].get<double>(), 0.5);
+  EXPECT_LT(json["pose"]["position_over_bound"].get<double>(), 1.4);
+  EXPECT_LT(json["pose"]["position_rms_of_range"].get<double>(), 0.001);
+
+  // Algorithm 8 by itself, on the log of this flight.
+  const Told match = folder.omma(
+      "compare-motion watched/flight.mcap platform.csv --body card --align both --time-offset --invert "
+      "--output match");
+  ASSERT_EQ(match.exit_code, 0) << match.err;
+  const auto found = nlohmann::json::parse(folder.read("match/motion.json"));
+  const auto& shift = found["left"]["translation_m"];
+  EXPECT_NEAR(found["time_offset_s"].get<double>(), 0.1, 4 * found["time_offset_sigma_s"].get<double>());
+  EXPECT_NEAR(shift[0].get<double>(), 0.05, 0.02);  // rig_from_platform
+  EXPECT_NEAR(shift[1].get<double>(), -0.12, 0.02);
+  EXPECT_NEAR(shift[2].get<double>(), 0.2, 0.02);
+}
+
+TEST(Recordings, ThatCannotBeUsedAreRefused) {
+  const OperatorsFolder folder;
+  const std::string mission = " --mission " + kConfig + "docking.toml --output out";
+  const auto refused = [&](const std::string& arguments, const std::string& sentence) {
+    const Told told = folder.omma("experiment " + arguments + mission);
+    EXPECT_EQ(told.exit_code, 2) << arguments;
+    EXPECT_THAT(told.err, HasSubstr(sentence)) << arguments;
+  };
+  std::filesystem::create_directories(folder / "frames/hdr1");
+  folder.write("frames/hdr1/hdr1_0.png", "no picture");
+  folder.write("turns.csv", "time_s,qx,qy,qz,qw\n0,0,0,0,1\n1,0,0,0,1\n2,0,0,0,1\n");
+  refused("earth-rotation", "one of --scenario and --recording, found neither");
+  refused("earth-rotation --recording frames --scenario x", "one of --scenario and --recording, found both");
+  refused("earth-rotation --recording none", "none/hdr1");
+  refused("earth-rotation --recording frames", "frames/cam0");
+  refused("earth-rotation --recording frames --frames 5", "--frames requires --scenario");
+  refused("earth-rotation --recording frames frames", "--recording: At Most 1");
+  refused("orientation-docking-imaging --recording frames",
+          "truth.jsonl in the folder, or --platform, found neither");
+  refused("orientation-docking-imaging --recording frames --platform none.csv", "none.csv: file");
+  refused(
+      "orientation-docking-imaging --recording frames --platform turns.csv",
+      "turns.csv:1: heading: expected poses, with x_m,y_m,z_m behind the quaternion, found attitudes alone");
+  refused("orientation-docking-imaging --recording frames --derotate", "--derotate requires --platform");
+  refused("orientation-docking-imaging --scenario x --platform turns.csv", "--platform requires --recording");
+  refused("repetition --recording frames", "at least two recordings to compare");
+  refused("repetition --recording frames frames --platform turns.csv",
+          "one for each --recording, found 1 for 2");
+}
+
 const std::string kDynamicRange = " --scenario " + kConfig + "dynamic_range_scenario.toml";
 
 // Two frames and one blacklevel: the dimmest star of one frame, without and with the lamp. With the lamp
@@ -105,16 +230,17 @@ TEST(DynamicRange, RefusesWhatItCannotUse) {
     EXPECT_THAT(told.err, HasSubstr(sentence)) << arguments;
     EXPECT_FALSE(std::filesystem::exists(folder / "run")) << arguments;
   };
-  refused("", "--scenario or --recorded");
+  refused("", "--scenario or --recording");
   refused("--scenario " + kConfig + "docking_scenario.toml", "a logarithmic sensor");
-  refused("--recorded images", "the camera's lens file");
-  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
+  refused("--recording images", "the camera's lens file");
+  refused("--recording images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
           "a folder of images");
   std::filesystem::create_directories(folder / "images");
-  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
+  refused("--recording images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
           "at least one PNG");
   folder.write("images/a.png", "no picture");
-  refused("--recorded images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt", "a.png");
+  refused("--recording images --lens " OMMA_SOURCE_DIR "/config/lenses/hdr1_f3.0mm_10um_768x576.txt",
+          "a.png");
 }
 
 TEST(EarthRotation, RefusesWhatMakesNoSense) {

@@ -1,4 +1,4 @@
-#include "ground/experiment/earth_fixed.hpp"
+#include "ground/compare_motion/earth_fixed.hpp"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "components/geometry/pose.hpp"
-#include "ground/experiment/earth_fixed.hpp"
+#include "ground/compare_motion/earth_fixed.hpp"
 #include "sim/motion.hpp"
 
 namespace omma::ground {

@@ -54,9 +54,9 @@ void CardView::paint(std::vector<float>& electrons) const {
   std::iota(far_to_near.begin(), far_to_near.end(), std::size_t{0});
   std::stable_sort(far_to_near.begin(), far_to_near.end(),
                    [&](std::size_t a, std::size_t b) { return faces_[a].distance() > faces_[b].distance(); });
-  FaceLayer layer{std::vector<float>(electrons.size()), std::vector<float>(electrons.size())};
+  FaceLayer layer;
   for (const std::size_t f : far_to_near) faces_[f].join(plate_electrons(faces_[f]), layer);
-  for (std::size_t i = 0; i < electrons.size(); ++i) {
+  for (std::size_t i = 0; i < layer.covered.size(); ++i) {
     const float dark = camera_.dark()[i];
     electrons[i] = dark + (1 - layer.covered[i]) * (electrons[i] - dark) + layer.light[i];
   }

@@ -113,9 +113,9 @@ void EarthView::paint(std::vector<float>& electrons) const {
   for (int v = 0; v < camera_.height(); ++v) {
     for (int u = 0; u < camera_.width(); ++u, ++at) {
       const std::size_t corner = static_cast<std::size_t>(v) * pitch + static_cast<std::size_t>(u);
+      if (!(camera_.transmissions()[at] > 0)) continue;
       const Eigen::Vector3f ray = (squash * (rays[corner] + rays[corner + pitch + 1])).normalized();
-      const float towards = ray.dot(to_centre);
-      if (!(towards > reach) || !(camera_.transmissions()[at] > 0)) continue;
+      if (!(ray.dot(to_centre) > reach)) continue;
       const float closest = eye.cross(ray).norm();
       const float share = blurred_opacity((closest - 1) * radius);
       if (!(share > 0)) continue;

@@ -136,14 +136,42 @@ std::vector<float> PlateView::coverage(const Box& box) const {
   return covered;
 }
 
+// A face that leaves the field has all of the image for its box: what it does not cover is cut off, but for
+// what the softened edge needs.
+bool PlateView::tighten(Box& box, std::vector<float>& covered) const {
+  const int columns = box.u1 - box.u0;
+  Box tight{box.u1, box.v1, box.u0, box.v0};
+  std::size_t at = 0;
+  for (int v = box.v0; v < box.v1; ++v) {
+    for (int u = box.u0; u < box.u1; ++u, ++at) {
+      if (covered[at] == 0) continue;
+      tight = {std::min(tight.u0, u), std::min(tight.v0, v), std::max(tight.u1, u + 1), v + 1};
+    }
+  }
+  if (tight.u0 >= tight.u1) return false;
+  const int margin = camera_.point_spread().radius() + 1;
+  tight = {std::max(box.u0, tight.u0 - margin), std::max(box.v0, tight.v0 - margin),
+           std::min(box.u1, tight.u1 + margin), std::min(box.v1, tight.v1 + margin)};
+  std::vector<float> kept;
+  kept.reserve(static_cast<std::size_t>(tight.u1 - tight.u0) * static_cast<std::size_t>(tight.v1 - tight.v0));
+  for (int v = tight.v0; v < tight.v1; ++v) {
+    const auto row = covered.begin() + static_cast<std::ptrdiff_t>(v - box.v0) * columns;
+    kept.insert(kept.end(), row + (tight.u0 - box.u0), row + (tight.u1 - box.u0));
+  }
+  covered = std::move(kept);
+  box = tight;
+  return true;
+}
+
 template <class Lay>
 void PlateView::lay(double surface_light, const Lay& one_pixel) const {
   Box box;
   if (!find_box(box)) return;
-  const int columns = box.u1 - box.u0;
   std::vector<float> covered = coverage(box);
-  soften(covered, columns, box.v1 - box.v0, camera_.point_spread().sigma());
+  if (!tighten(box, covered)) return;
+  soften(covered, box.u1 - box.u0, box.v1 - box.v0, camera_.point_spread().sigma());
   const auto surface = static_cast<float>(surface_light);
+  const int columns = box.u1 - box.u0;
   for (int v = box.v0; v < box.v1; ++v) {
     const float* share = covered.data() + static_cast<std::ptrdiff_t>(v - box.v0) * columns;
     for (int u = box.u0; u < box.u1; ++u) {
@@ -162,6 +190,10 @@ void PlateView::paint(double surface, std::vector<float>& electrons) const {
 
 void PlateView::join(double surface, FaceLayer& layer) const {
   lay(surface, [&](std::size_t at, float share, float light) {
+    if (layer.covered.empty()) {
+      layer.covered.resize(camera_.transmissions().size());
+      layer.light.resize(camera_.transmissions().size());
+    }
     float& covered = layer.covered[at];
     const float behind = covered > 0 ? std::min(1.0F, (1 - share) / covered) : 0.0F;
     layer.light[at] = behind * layer.light[at] + share * light;

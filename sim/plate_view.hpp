@@ -11,7 +11,8 @@
 
 namespace omma::sim {
 
-/// Faces of one body put together, a value a pixel: how much of it they cover, and their light [electrons].
+/// Faces of one body put together, a value a pixel: how much of it they cover, and their light [electrons];
+/// empty where no face is in the image.
 struct FaceLayer {
   std::vector<float> covered, light;
 };
@@ -45,6 +46,7 @@ class PlateView {
   template <class Lay>
   void lay(double surface_light, const Lay& one_pixel) const;
   bool find_box(Box& box) const;
+  bool tighten(Box& box, std::vector<float>& covered) const;
   std::vector<float> coverage(const Box& box) const;
   float coverage_of_pixel(const Eigen::Vector3f* upper, const Eigen::Vector3f* lower) const;
   bool covers(const Eigen::Vector3f& ray) const;

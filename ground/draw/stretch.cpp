@@ -46,10 +46,14 @@ Stretch night_sky_stretch(const ImageView& image) {
   const double total = static_cast<double>(image.width) * image.height;
   const double median = level_at(histogram, 0.5, total);
   const double low = level_at(histogram, 0.16, total);
-  const double spread = std::max(median - low, 0.002 * image.white_level);
+  const double lowest = level_at(histogram, 0.04, total);
+  // One deviation of the background's noise, seen twice; where much of the picture is lit, the dark part's
+  // own.
+  const double spread = std::max(std::min(median - low, 1.32 * (low - lowest)), 0.002 * image.white_level);
   Stretch stretch;
-  stretch.black = std::max(0.0, median - 2 * spread);
-  stretch.white = std::max(level_at(histogram, 0.9995, total), stretch.black + 20 * spread);
+  stretch.black = std::max(0.0, std::min(median, low + spread) - 2 * spread);
+  stretch.white = std::min<double>(std::max(level_at(histogram, 0.9995, total), stretch.black + 20 * spread),
+                                   image.white_level);
   // Five spreads above the black level come out at roughly a third of full brightness.
   stretch.lift = std::clamp((stretch.white - stretch.black) / (8 * spread), 1.0, 60.0);
   return stretch;

@@ -16,7 +16,7 @@ struct Stretch {
       0;  ///< 0: straight line; larger: asinh(lift x)/asinh(lift) (Lupton et al. 2004, PASP 116, 133)
 };
 
-/// Chosen from the picture's own levels: black just under the median background, white where the brightest
+/// Chosen from the picture's own levels: black just under the background, white where the brightest
 /// 0.05 % begin, the lift so that five times the background's own spread is well visible.
 Stretch night_sky_stretch(const ImageView& image);
 

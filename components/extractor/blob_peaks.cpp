@@ -69,6 +69,11 @@ class Patch {
                      &value_[index_of(left - left_ + kEight)]);
     }
   }
+  [[gnu::always_inline]] Ints eight(int u, int v) const {
+    Ints x;
+    std::memcpy(&x, &value_[index_of(v - top_, u - left_ + kMargin, kSide)], sizeof x);
+    return x;
+  }
   int operator()(int u, int v) const { return value_[index_of(v - top_, u - left_ + kMargin, kSide)]; }
 
  private:
@@ -105,6 +110,53 @@ int lowest_between(const Patch& smoothed, const Peak& a, const Peak& b) {
   return lowest;
 }
 
+struct Maximum {
+  int u, v, height;
+};
+constexpr std::size_t kMostMaxima = Peaks::capacity();
+
+struct Box {
+  int left, top, right, bottom;
+};
+
+// Which of eight pixels side by side are higher than their neighbours (no lower than those that come later).
+[[gnu::always_inline]] inline Ints are_maxima(const Patch& smoothed, int u, int v) {
+  const Ints here = smoothed.eight(u, v);
+  return (here > smoothed.eight(u - 1, v)) & (here > smoothed.eight(u, v - 1)) &
+         (here >= smoothed.eight(u + 1, v)) & (here >= smoothed.eight(u, v + 1)) &
+         (here > smoothed.eight(u - 1, v - 1)) & (here > smoothed.eight(u + 1, v - 1)) &
+         (here >= smoothed.eight(u - 1, v + 1)) & (here >= smoothed.eight(u + 1, v + 1));
+}
+
+// The local maxima in a box that are not below `floor`, in reading order.
+OMMA_CLONES std::size_t find_maxima(const Patch& smoothed, const Box& box, float floor,
+                                    std::array<Maximum, kMostMaxima>& maxima) {
+  constexpr int kEight = static_cast<int>(kLanes);
+  const auto least = static_cast<int>(std::ceil(floor));
+  std::size_t count = 0;
+  for (int v = box.top; v <= box.bottom; ++v) {
+    for (int left = box.left; left <= box.right; left += kEight) {
+      Ints highest = are_maxima(smoothed, left, v) & (smoothed.eight(left, v) >= least) &
+                     (Ints{0, 1, 2, 3, 4, 5, 6, 7} <= box.right - left);
+      std::array<std::uint64_t, kLanes / 2> pairs;
+      std::memcpy(pairs.data(), &highest, sizeof highest);
+      if ((pairs[0] | pairs[1] | pairs[2] | pairs[3]) == 0) continue;
+      for (int i = 0; i < kEight; ++i) {
+        if (highest[i] == 0) continue;
+        maxima[count] = {left + i, v, smoothed(left + i, v)};
+        if (++count == kMostMaxima) return count;
+      }
+    }
+  }
+  return count;
+}
+
+// Difference over sum of the light on the two sides of a peak, over the background.
+float lean(int before, int after, float background) {
+  const float sum = static_cast<float>(before + after) - 2 * kFilterWeights * background;
+  return sum > 0 ? std::clamp(static_cast<float>(after - before) / sum, -1.0F, 1.0F) : 0.0F;
+}
+
 }  // namespace
 
 void find_peaks(const ImageView& image, bool invert, const Candidate& candidate, Peaks& peaks) noexcept {
@@ -121,26 +173,17 @@ void find_peaks(const ImageView& image, bool invert, const Candidate& candidate,
   } else {
     smoothed.smooth<std::uint16_t>(image, flip);
   }
-  Peaks maxima;
   const float floor =
       candidate.noise.background * kFilterWeights + kDepth * kFilterDeviation * candidate.noise.sigma;
-  for (int v = top; v <= bottom; ++v) {
-    for (int u = left; u <= right; ++u) {
-      const int here = smoothed(u, v);
-      if (static_cast<float>(here) < floor) continue;
-      const bool highest = here > smoothed(u - 1, v) && here > smoothed(u, v - 1) &&
-                           here >= smoothed(u + 1, v) && here >= smoothed(u, v + 1) &&
-                           here > smoothed(u - 1, v - 1) && here > smoothed(u + 1, v - 1) &&
-                           here >= smoothed(u - 1, v + 1) && here >= smoothed(u + 1, v + 1);
-      if (highest && !maxima.push_back({u, v, here})) break;
-    }
-  }
-  std::sort(maxima.begin(), maxima.end(), [](const Peak& a, const Peak& b) {
+  std::array<Maximum, kMostMaxima> maxima;
+  const std::size_t count = find_maxima(smoothed, {left, top, right, bottom}, floor, maxima);
+  std::sort(maxima.begin(), maxima.begin() + count, [](const Maximum& a, const Maximum& b) {
     if (a.height != b.height) return a.height > b.height;
     return a.v != b.v ? a.v < b.v : a.u < b.u;
   });
   const float variance = candidate.noise.sigma * candidate.noise.sigma;
-  for (const Peak& peak : maxima) {
+  for (std::size_t i = 0; i < count; ++i) {
+    Peak peak{maxima[i].u, maxima[i].v, maxima[i].height};
     const float light =
         std::max(0.0F, static_cast<float>(peak.height) / kFilterWeights - candidate.noise.background);
     const float photons = candidate.noise.gain > 0 ? light / candidate.noise.gain : 0;
@@ -149,7 +192,11 @@ void find_peaks(const ImageView& image, bool invert, const Candidate& candidate,
     const bool parted = std::all_of(peaks.begin(), peaks.end(), [&](const Peak& higher) {
       return static_cast<float>(peak.height - lowest_between(smoothed, peak, higher)) > depth;
     });
-    if (parted) peaks.push_back(peak);
+    if (!parted) continue;
+    const float background = candidate.noise.background;
+    peak.lean_u = lean(smoothed(peak.u - 1, peak.v), smoothed(peak.u + 1, peak.v), background);
+    peak.lean_v = lean(smoothed(peak.u, peak.v - 1), smoothed(peak.u, peak.v + 1), background);
+    peaks.push_back(peak);
   }
 }
 

@@ -13,6 +13,9 @@ namespace omma {
 struct Peak {
   int u = 0, v = 0;  ///< [px]
   int height = 0;    ///< smoothed with (1 2 1)⊗(1 2 1), sum 16, background included [16 grey levels]
+  /// (right − left) / (right + left) and (below − above) / (below + above) of the smoothed light over the
+  /// background beside it: tanh(δ / s²) of a Gaussian of variance s² whose top is δ away
+  float lean_u = 0, lean_v = 0;
 };
 
 using Peaks = StaticVector<Peak, 64>;

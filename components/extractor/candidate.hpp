@@ -16,6 +16,8 @@ struct Candidate {
   int area = 0;                                  ///< pixels over the threshold
   int saturated = 0;                             ///< of them full
   float u = 0, v = 0;                            ///< centroid of its light over the background [px]
+  float top_u = 0, top_v = 0;                    ///< pixel where its smoothed light is highest
+  float lean_u = 0, lean_v = 0;                  ///< of the light beside that pixel, as Peak's
   float peak = 0;                                ///< brightest pixel over the background [grey levels]
   float height = 0;     ///< its smoothed light where that is highest, over the background [grey levels]
   float threshold = 1;  ///< that the smoothed light was over [standard deviations of a pixel]

@@ -55,6 +55,8 @@ void CandidateSearch::add_candidates(const Blob& blob) noexcept {
   if (!(over > 0)) return;
   candidate.u = static_cast<float>(blob.origin_u + light(blob.light_u, blob.sum_u) / over);
   candidate.v = static_cast<float>(blob.origin_v + light(blob.light_v, blob.sum_v) / over);
+  candidate.top_u = candidate.u;
+  candidate.top_v = candidate.v;
   candidate.peak = static_cast<float>(blob.peak) - noise.background;
   candidate.threshold = parameters_->threshold * kFilterDeviation / kFilterSum;
   candidate.height = 0.5F * candidate.peak;
@@ -68,9 +70,13 @@ void CandidateSearch::add_candidates(const Blob& blob) noexcept {
   candidate.area /= candidate.peaks;
   for (const Peak& peak : peaks_) {
     candidate.height = static_cast<float>(peak.height) / 16 - noise.background;
+    candidate.top_u = static_cast<float>(peak.u);
+    candidate.top_v = static_cast<float>(peak.v);
+    candidate.lean_u = peak.lean_u;
+    candidate.lean_v = peak.lean_v;
     if (peaks_.size() > 1) {
-      candidate.u = static_cast<float>(peak.u);
-      candidate.v = static_cast<float>(peak.v);
+      candidate.u = candidate.top_u;
+      candidate.v = candidate.top_v;
     }
     add();
   }
@@ -86,31 +92,30 @@ void CandidateSearch::drop_faint_half() noexcept {
 
 // The runs of set bits of the row, each given to its blob.
 void CandidateSearch::add_runs(int v) noexcept {
-  int first = -1;  // of a run that reaches into the next word
-  for (int k = 0; k < filter_.words(); ++k) {
-    std::uint64_t word = filter_.word(k);
-    if (blind_ != nullptr) word &= ~blind_->word(v, k);
-    const int base = k * DetectionFilter::kWord;
-    if (first >= 0) {
-      const int ones = std::countr_one(word);
-      if (ones == 64) continue;
-      add_pixels(first, base + ones - 1, v, blobs_.add_run(first, base + ones - 1, v));
-      first = -1;
-      word &= ~((1ULL << ones) - 1);
-    }
-    while (word != 0) {
-      const int start = std::countr_zero(word);
-      const int ones = std::countr_one(word >> start);
-      if (start + ones == 64) {
-        first = base + start;
-        break;
+  int first = 0;  // of the run at hand
+  int end = -1;   // one behind its last pixel; -1: there is none
+  for (int block = 0; block < filter_.blocks(); ++block) {
+    for (std::uint64_t found = filter_.found(block); found != 0; found &= found - 1) {
+      const int k = 64 * block + std::countr_zero(found);
+      std::uint64_t word = filter_.word(k);
+      if (blind_ != nullptr) word &= ~blind_->word(v, k);
+      for (int base = k * DetectionFilter::kWord; word != 0;) {
+        const int start = std::countr_zero(word);
+        const int ones = std::countr_one(word >> start);
+        if (base + start != end) {  // else it goes on from the word before
+          if (end >= 0) add_run(first, end - 1, v);
+          first = base + start;
+        }
+        end = base + start + ones;
+        word = start + ones == 64 ? 0 : word & (~std::uint64_t{0} << (start + ones));
       }
-      const int end = base + start + ones - 1;
-      add_pixels(base + start, end, v, blobs_.add_run(base + start, end, v));
-      word &= ~(((1ULL << ones) - 1) << start);
     }
   }
-  if (first >= 0) add_pixels(first, width_ - 1, v, blobs_.add_run(first, width_ - 1, v));
+  if (end >= 0) add_run(first, end - 1, v);
+}
+
+void CandidateSearch::add_run(int first, int last, int v) noexcept {
+  add_pixels(first, last, v, blobs_.add_run(first, last, v));
 }
 
 void CandidateSearch::add_pixels(int first, int last, int v, Blob& blob) noexcept {

@@ -30,6 +30,7 @@ class CandidateSearch {
 
  private:
   void add_runs(int v) noexcept;
+  void add_run(int first, int last, int v) noexcept;
   void add_pixels(int first, int last, int v, Blob& blob) noexcept;
   void add_candidates(const Blob& blob) noexcept;
   void drop_faint_half() noexcept;

@@ -2,6 +2,7 @@
 #include "components/extractor/detection_filter.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -68,9 +69,19 @@ OMMA_CLONES void average_across(const std::uint8_t* x, int n, std::uint8_t* out)
   for (int u = 1; u < n - 1; ++u) out[u] = average(average(x[u - 1], x[u + 1]), x[u]);
 }
 
+// Sets over[k] where some average of word k is over its limit. @param words  of a row, padded
 OMMA_CLONES void average_down(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
-                              int n, std::uint8_t* out) {
-  for (int u = 0; u < n; ++u) out[u] = average(average(above[u], below[u]), here[u]);
+                              const std::uint8_t* limit, int words, std::uint8_t* out, std::uint8_t* over) {
+  constexpr int kWord = DetectionFilter::kWord;
+  for (int k = 0; k < words; ++k) {
+    std::uint8_t most = 0;
+    for (int u = k * kWord; u < (k + 1) * kWord; ++u) {
+      const std::uint8_t y = average(average(above[u], below[u]), here[u]);
+      out[u] = y;
+      most = std::max(most, y);
+    }
+    over[k] = most > limit[k] ? 1 : 0;
+  }
 }
 
 // Sets over[k] where some byte of word k is over its limit.
@@ -80,6 +91,17 @@ OMMA_CLONES void find_over(const std::uint8_t* x, const std::uint8_t* limit, int
     for (int i = 0; i < DetectionFilter::kWord; ++i) most = std::max(most, x[k * DetectionFilter::kWord + i]);
     over[k] = most > limit[k] ? 1 : 0;
   }
+}
+
+// Bytes of 0 or 1 as bits. @param n  to 64; eight bytes are read at a time
+std::uint64_t bits_of_bytes(const std::uint8_t* x, int n) {
+  std::uint64_t bits = 0;
+  for (int k = 0; k < n; k += 8) {
+    std::uint64_t eight;  // the product gathers them in its highest byte
+    std::memcpy(&eight, x + k, sizeof eight);
+    bits |= ((eight * 0x0102040810204080U) >> 56) << k;
+  }
+  return bits;
 }
 
 bool strip_over(const std::uint8_t* x, std::uint8_t limit) {
@@ -113,13 +135,7 @@ template <class Sum, class Pixel>
     const auto value = turn > 0 ? static_cast<Sum>(turn - sum) : sum;
     over[i] = value > limit[i] ? 1 : 0;
   }
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < kStrip; i += 8) {
-    std::uint64_t eight = 0;  // bytes of 0 or 1; the product gathers them in its highest byte
-    for (std::size_t k = 0; k < 8; ++k) eight |= static_cast<std::uint64_t>(over[i + k]) << (8 * k);
-    bits |= ((eight * 0x0102040810204080U) >> 56) << i;
-  }
-  return bits;
+  return bits_of_bytes(over.data(), kStrip);
 }
 OMMA_CLONES std::uint64_t bits_of(const std::uint8_t* above, const std::uint8_t* here,
                                   const std::uint8_t* below, int turn, float start, float slope) {
@@ -138,7 +154,8 @@ DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_
   words_.resize(count);
   limit_.resize(count * kStripsOfWord);
   word_limit_.resize(count);
-  over_.resize(count);
+  over_.resize((count + 7) / 8 * 8);
+  found_.resize((count + 63) / 64);
   narrow_.resize(row_length_);
   averaged_.resize(row_length_);
   for (auto& row : across_) row.resize(row_length_);
@@ -147,7 +164,6 @@ DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_
   const std::size_t cells = static_cast<std::size_t>((width + kCell - 1) / kCell) *
                             static_cast<std::size_t>((height + kCell - 1) / kCell);
   threshold_.resize(cells);
-  row_threshold_.resize(index_of((width + kCell - 1) / kCell + 4));
 }
 
 float DetectionFilter::threshold_of(int row, int column) const noexcept {
@@ -223,9 +239,9 @@ bool DetectionFilter::row(int v) noexcept {
   const int count = words();
   const int strips = count * kStripsOfWord;
   const bool band_changed = band != band_;
-  const float unit = std::ldexp(1.0F, exponent_);
   if (band_changed) {  // the lowest threshold that plays a part in a strip of this band
     band_ = band;
+    const float unit = std::ldexp(1.0F, exponent_);
     for (int k = 0; k < strips; ++k) {
       const int column = left_cell(k);
       const float lowest = std::min({threshold_of(band, column), threshold_of(band, column + 1),
@@ -240,26 +256,42 @@ bool DetectionFilter::row(int v) noexcept {
     word_limit_[static_cast<std::size_t>(k)] = *std::min_element(first, first + kStripsOfWord);
   }
   average_down(across_[static_cast<std::size_t>((v - 1) % 3)].data(),
-               across_[static_cast<std::size_t>(v % 3)].data(), across_[index_of((v + 1) % 3)].data(), width_,
-               averaged_.data());
-  find_over(averaged_.data(), word_limit_.data(), count, over_.data());
+               across_[static_cast<std::size_t>(v % 3)].data(), across_[index_of((v + 1) % 3)].data(),
+               word_limit_.data(), count, averaged_.data(), over_.data());
+  place_row(v);
   bool any = false;
-  bool prepared = false;
-  for (int k = 0; k < count; ++k) {
-    std::uint64_t& word = words_[static_cast<std::size_t>(k)];
-    word = 0;
-    const bool all = full && near_full(k);
-    if (over_[static_cast<std::size_t>(k)] == 0 && !all) continue;
-    if (!prepared) prepare_row(v);
-    prepared = true;
-    for (int i = 0; i < kStripsOfWord; ++i) {
-      const int strip = k * kStripsOfWord + i;
-      if (all || strip_over(&averaged_[index_of(strip, 0, kStrip)], limit_[static_cast<std::size_t>(strip)]))
-        word |= exact(v, strip) << (i * kStrip);
+  for (int first = 0; first < count; first += 64) {
+    const int block = std::min(64, count - first);
+    std::uint64_t wanted = bits_of_bytes(&over_[index_of(first)], block);
+    if (full)
+      for (int k = 0; k < block; ++k) wanted |= static_cast<std::uint64_t>(near_full(first + k)) << k;
+    std::uint64_t& found = found_[index_of(first / 64)];
+    found = 0;
+    for (; wanted != 0; wanted &= wanted - 1) {
+      const int k = std::countr_zero(wanted);
+      const std::uint64_t word = exact_word(v, first + k, full && near_full(first + k));
+      words_[index_of(first + k)] = word;
+      found |= static_cast<std::uint64_t>(word != 0) << k;
     }
-    any = any || word != 0;
+    any = any || found != 0;
   }
   return any;
+}
+
+// Pixels over the threshold in a word of which some strip may hold one. @param all  all its strips may
+std::uint64_t DetectionFilter::exact_word(int v, int k, bool all) const noexcept {
+  const int first = k * kStripsOfWord;
+  unsigned strips = all ? (1U << kStripsOfWord) - 1 : 0U;
+  for (int i = 0; i < kStripsOfWord; ++i)
+    strips |= static_cast<unsigned>(
+                  strip_over(&averaged_[index_of(first + i, 0, kStrip)], limit_[index_of(first + i)]))
+              << i;
+  std::uint64_t word = 0;
+  for (; strips != 0; strips &= strips - 1) {
+    const int i = std::countr_zero(strips);
+    word |= exact(v, first + i) << (i * kStrip);
+  }
+  return word;
 }
 
 // A pixel that does not fit is brighter than its average shows: words it may reach are computed exactly.
@@ -270,26 +302,25 @@ bool DetectionFilter::near_full(int k) const noexcept {
   return false;
 }
 
-// The threshold along the middle of row v, at the cells' centres and one beyond on each side.
-void DetectionFilter::prepare_row(int v) noexcept {
+// Row v between the rows of cells.
+void DetectionFilter::place_row(int v) noexcept {
   const float y = (static_cast<float>(v) + 0.5F) / kCell - 0.5F;
   const int row = static_cast<int>(std::floor(y));
-  const float down = y - static_cast<float>(row);
-  const float* top = &threshold_[index_of(std::clamp(row, 0, rows_ - 1), 0, columns_)];
-  const float* bottom = &threshold_[index_of(std::clamp(row + 1, 0, rows_ - 1), 0, columns_)];
-  float* out = row_threshold_.data();
-  for (int column = 0; column < columns_; ++column)
-    out[column + 1] = top[column] + down * (bottom[column] - top[column]);
-  out[0] = out[1];
-  out[columns_ + 1] = out[columns_];
+  down_ = y - static_cast<float>(row);
+  above_ = &threshold_[index_of(std::clamp(row, 0, rows_ - 1), 0, columns_)];
+  below_ = &threshold_[index_of(std::clamp(row + 1, 0, rows_ - 1), 0, columns_)];
 }
 
 // The threshold is bilinear between the cells' centres, which lie between two strips.
 std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
   static_assert(kCell == 2 * kStrip);
-  const float* middle = &row_threshold_[index_of(left_cell(strip) + 1)];
-  const float slope = (middle[1] - middle[0]) / kCell;
-  const float start = middle[0] + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
+  const auto middle_of = [this](int column) {  // of the row, at a cell's centre
+    const auto c = index_of(std::clamp(column, 0, columns_ - 1));
+    return above_[c] + down_ * (below_[c] - above_[c]);
+  };
+  const float left = middle_of(left_cell(strip));
+  const float slope = (middle_of(left_cell(strip) + 1) - left) / kCell;
+  const float start = left + slope * (strip % 2 == 0 ? kStrip + 0.5F : 0.5F);
   const int turn = invert_ ? kFilterSum * image_->white_level : 0;
   const int first = strip * kStrip;
   if (first >= width_ - 1) return 0;
@@ -304,9 +335,9 @@ std::uint64_t DetectionFilter::exact(int v, int strip) const noexcept {
     for (std::size_t r = 0; r < 3; ++r)
       std::copy(rows[r] + begin, rows[r] + end, copy[r].begin() + (begin - (first - 1)));
     const std::uint64_t all = bits_of(copy[0].data(), copy[1].data(), copy[2].data(), turn, start, slope);
-    const std::uint64_t left = first == 0 ? ~std::uint64_t{1} : ~std::uint64_t{0};
+    const std::uint64_t not_first = first == 0 ? ~std::uint64_t{1} : ~std::uint64_t{0};
     const int inside = width_ - 1 - first;
-    return all & left &
+    return all & not_first &
            (inside >= kStrip ? ~std::uint64_t{0}
             : inside <= 0    ? 0
                              : (std::uint64_t{1} << inside) - 1);

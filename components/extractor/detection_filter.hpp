@@ -31,14 +31,21 @@ class DetectionFilter {
   /// The pixels of row v over the threshold, 1 <= v < height − 1.
   /// @return whether there is any; bit u % 64 of word u / 64
   bool row(int v) noexcept;
-  std::uint64_t word(int k) const { return words_[static_cast<std::size_t>(k)]; }
+  std::uint64_t word(int k) const {
+    const auto i = static_cast<std::size_t>(k);
+    return ((found_[i / 64] >> (i % 64)) & 1U) != 0 ? words_[i] : 0;
+  }
+  /// The words that have any bit set, 64 of them to a block: bit i for word 64 · block + i.
+  std::uint64_t found(int block) const { return found_[static_cast<std::size_t>(block)]; }
+  int blocks() const { return static_cast<int>(found_.size()); }
   int words() const { return static_cast<int>(words_.size()); }
 
  private:
   void choose_scale(const BackgroundMap& background) noexcept;
   void average_row(int v) noexcept;
   bool near_full(int k) const noexcept;
-  void prepare_row(int v) noexcept;
+  void place_row(int v) noexcept;
+  std::uint64_t exact_word(int v, int k, bool all) const noexcept;
   std::uint64_t exact(int v, int strip) const noexcept;
   float threshold_of(int row, int column) const noexcept;
 
@@ -47,8 +54,11 @@ class DetectionFilter {
   int columns_ = 0, rows_ = 0;
   const ImageView* image_ = nullptr;
   bool invert_ = false;
-  std::vector<float> row_threshold_;  // of the row at hand
-  std::vector<float> threshold_;      // of the smoothed value, one a cell
+  std::vector<float> threshold_;  // of the smoothed value, one a cell
+  // Of the row at hand: the thresholds of the cells above and below its middle, and how far down it is.
+  const float* above_ = nullptr;
+  const float* below_ = nullptr;
+  float down_ = 0;
   // Pixels as the quick pass sees them: 8 bits of (x − pedestal) · 2^exponent, full where it does not fit.
   int pedestal_ = 0;
   int exponent_ = 0;
@@ -60,7 +70,8 @@ class DetectionFilter {
   std::array<std::vector<std::uint8_t>, 3> full_;    // of the same rows: words with a pixel that does not fit
   std::array<bool, 3> any_full_{};
   std::vector<std::uint8_t> full_limit_;
-  std::vector<std::uint64_t> words_;
+  std::vector<std::uint64_t> words_;  // those of found_ are of the row at hand
+  std::vector<std::uint64_t> found_;
 };
 
 }  // namespace omma

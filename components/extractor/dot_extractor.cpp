@@ -22,6 +22,7 @@ DotExtractor::DotExtractor(int width, int height)
   coarse_candidates_.reserve(kCandidates / 2);
   found_.reserve(kCandidates);
   ranking_.reserve(kCandidates);
+  ranking_scratch_.reserve(kCandidates);
 }
 
 void DotExtractor::extract(const ImageView& image, const ExtractorParameters& parameters,
@@ -82,31 +83,24 @@ void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& p
   }
 }
 
-// The best by signal-to-noise ratio, handed over brightest first; ties in reading order, so that the result
+// The best by signal-to-noise ratio, handed over brightest first; ties in the order of the measurement, which
 // is the same on every machine.
 void DotExtractor::keep_best(DotList& list) noexcept {
-  const auto greater = [this](const Ranked& a, const Ranked& b) {
-    if (a.value != b.value) return a.value > b.value;
-    const Eigen::Vector2d& p = found_[a.dot].pixel;
-    const Eigen::Vector2d& q = found_[b.dot].pixel;
-    return p.y() != q.y() ? p.y() < q.y() : p.x() < q.x();
-  };
-  const auto rank_by = [this](float Dot::*value) {
-    for (Ranked& ranked : ranking_) ranked.value = found_[ranked.dot].*value;
-  };
   const std::size_t kept = std::min(found_.size(), limits::kDotsPerCamera);
   list.dropped = static_cast<std::uint32_t>(found_.size() - kept) + overflow_;
-  ranking_.clear();
-  for (std::size_t i = 0; i < found_.size(); ++i) ranking_.push_back({0, static_cast<std::uint16_t>(i)});
+  ranking_.resize(found_.size());
+  for (std::size_t i = 0; i < found_.size(); ++i) ranking_[i].index = static_cast<std::uint32_t>(i);
+  ranking_scratch_.resize(found_.size());
+  const auto rank_by = [this](float Dot::*value) {
+    for (Ranked& ranked : ranking_) ranked.key = falling_key(found_[ranked.index].*value);
+    sort_by_key(ranking_, {ranking_scratch_.data(), ranking_.size()});
+  };
   if (kept < found_.size()) {
     rank_by(&Dot::snr);
-    std::nth_element(ranking_.begin(), ranking_.begin() + static_cast<std::ptrdiff_t>(kept), ranking_.end(),
-                     greater);
     ranking_.resize(kept);
   }
   rank_by(&Dot::flux);
-  std::sort(ranking_.begin(), ranking_.end(), greater);
-  for (const Ranked& ranked : ranking_) list.dots.push_back(found_[ranked.dot]);
+  for (const Ranked& ranked : ranking_) list.dots.push_back(found_[ranked.index]);
 }
 
 }  // namespace omma

@@ -9,6 +9,7 @@
 #include "components/extractor/dot.hpp"
 #include "components/extractor/dot_measurement.hpp"
 #include "components/extractor/extractor_parameters.hpp"
+#include "components/extractor/falling_order.hpp"
 #include "components/extractor/halved_image.hpp"
 #include "hal/image.hpp"
 
@@ -33,11 +34,6 @@ class DotExtractor {
   const BackgroundMap& background() const { return fine_.background(); }
 
  private:
-  struct Ranked {
-    float value;
-    std::uint16_t dot;
-  };
-
   void search(const ImageView& image, const ExtractorParameters& parameters, bool invert) noexcept;
   void add_wide(const ImageView& image, const ExtractorParameters& parameters, bool invert,
                 float width) noexcept;
@@ -55,7 +51,7 @@ class DotExtractor {
   std::vector<Candidate> candidates_, coarse_candidates_;
   DotMeasurement measurement_;
   std::vector<Dot> found_;
-  std::vector<Ranked> ranking_;
+  std::vector<Ranked> ranking_, ranking_scratch_;
   std::uint32_t overflow_ = 0;  // candidates beyond the scratch
 };
 

@@ -5,6 +5,7 @@
 
 #include "components/extractor/disc_centroid.hpp"
 #include "components/extractor/index.hpp"
+#include "components/extractor/spot_start.hpp"
 
 namespace omma {
 namespace {
@@ -19,9 +20,11 @@ constexpr double kModelError = 0.002;  // what no model of a real spot is better
 constexpr double kSecondOrder = 7;
 constexpr double kStretched =
     0.3;  // excess of the long axis's variance from which a trail is tried [variance]
-constexpr double kTrailGain = 15;        // by which a trail's χ² must be smaller
-constexpr int kLeastPixels = 12;         // of a window
-constexpr double kLeastDiscSigma = 1.5;  // of a blob that may be a disc [px]
+constexpr double kTrailGain = 15;         // by which a trail's χ² must be smaller
+constexpr double kManyPixels = 5000;      // whose residuals tell the noise to 2 %
+constexpr double kLeastNoiseShare = 0.9;  // [variance]
+constexpr int kLeastPixels = 12;          // of a window
+constexpr double kLeastDiscSigma = 1.5;   // of a blob that may be a disc [px]
 // Of one image at most so many dots are measured: the best of them are handed over.
 constexpr std::size_t kMost = 2 * limits::kDotsPerCamera;
 constexpr int kSweeps = 2;  // over spots in each other's light, after the first
@@ -32,19 +35,6 @@ int nearest_pixel(double place) {
 
 int radius_for(double sigma) {
   return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
-}
-
-// ln x to a twentieth, the same on every machine.
-double logarithm(double x) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);  // 1/2 <= mantissa < 1
-  return M_LN2 * (exponent + 2 * mantissa - 2);
-}
-
-// Area of a Gaussian over its threshold: 2 π σ² ln(height / threshold).
-double width_of(const Candidate& candidate) {
-  const double over = candidate.height / (candidate.threshold * candidate.noise.sigma);
-  return std::sqrt(candidate.area / (2 * M_PI * logarithm(std::max(1.6, over))));
 }
 
 // Square root of the sum of squares; std::hypot is not the same on every machine.
@@ -67,6 +57,9 @@ double disc_sigma(const Candidate& candidate) {
 DotMeasurement::DotMeasurement(int width, int height, std::size_t dots) : field_(width, height, dots) {
   dot_of_spot_.reserve(dots);
   widths_.reserve(kSample);
+  ranking_.reserve(dots);
+  ranking_scratch_.reserve(dots);
+  unordered_.reserve(dots);
 }
 
 // The pixels within `radius` of (u, v).
@@ -79,18 +72,7 @@ void DotMeasurement::load(double u, double v, int radius) noexcept {
 }
 
 void DotMeasurement::start_at(const Candidate& candidate) noexcept {
-  fit_.u = candidate.u;
-  fit_.v = candidate.v;
-  const double wide = width_of(candidate);
-  // A blob about as wide as the point spread is one.
-  if (!width_known_) {
-    fit_.sigma = std::clamp(wide, 0.6, 4.0);
-  } else {
-    fit_.sigma = wide < 1.5 * static_cast<double>(prior_.sigma) ? static_cast<double>(prior_.sigma)
-                                                                : std::min(wide, 4.0);
-  }
-  // The smoothed spot is a Gaussian of σ² + 1/12 + 1/2.
-  fit_.flux = 2 * M_PI * (fit_.sigma * fit_.sigma + 0.58) * candidate.height;
+  start_spot(candidate, width_known_ ? &prior_ : nullptr, fit_);
 }
 
 void DotMeasurement::start_at(const FieldSpot& spot) noexcept {
@@ -156,6 +138,10 @@ bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self,
   if (fit_.sigma > parameters_->max_point_sigma || !(dot.snr >= parameters_->min_snr)) return false;
   dot.pixel = {fit_.u, fit_.v};
   dot.covariance = grown(fit_.covariance, fit_.chi2_per_pixel, dot.snr);
+  if (fit_.chi2_per_pixel < significant_chi2()) {
+    residuals_ += fit_.chi2_per_pixel * window_.counted;
+    pixels_ += window_.counted;
+  }
   dot.flux = static_cast<float>(fit_.flux);
   dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
   dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
@@ -203,11 +189,21 @@ bool DotMeasurement::try_trail(const Candidate& candidate, std::size_t self, Dot
   return true;
 }
 
+double DotMeasurement::significant_chi2() const noexcept {
+  return 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
+}
+
+// The light of faint and wide spots makes the noise map a little too large; what the fits left over says by
+// how much.
+double DotMeasurement::noise_share() const noexcept {
+  if (pixels_ < kManyPixels) return 1;
+  return std::clamp(residuals_ / pixels_, kLeastNoiseShare, 1.0);
+}
+
 // A real spot is no Gaussian: where the pixels say so, the covariance grows with their χ².
 Eigen::Matrix2d DotMeasurement::grown(const Eigen::Matrix2d& covariance, double chi2_per_pixel,
                                       float snr) const noexcept {
-  const double significant = 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
-  const double misfit = chi2_per_pixel > significant ? chi2_per_pixel : 1;
+  const double misfit = chi2_per_pixel > significant_chi2() ? chi2_per_pixel : 1;
   const double threshold = 1 + kSecondOrder / (static_cast<double>(snr) * static_cast<double>(snr));
   return misfit * threshold * covariance + kModelError * kModelError * Eigen::Matrix2d::Identity();
 }
@@ -320,6 +316,24 @@ bool DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
   return any;
 }
 
+// Brightest first. Each candidate is moved once.
+void DotMeasurement::put_in_order(std::vector<Candidate>& candidates) noexcept {
+  ranking_.resize(candidates.size());
+  ranking_scratch_.resize(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    ranking_[i] = {falling_key(candidates[i].height), static_cast<std::uint32_t>(i)};
+  sort_by_key(ranking_, ranking_scratch_);
+  unordered_ = candidates;
+  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] = unordered_[ranking_[i].index];
+  for (auto first = candidates.begin(); first != candidates.end();) {  // ties in reading order
+    const auto last = std::find_if(first, candidates.end(), [&](const Candidate& candidate) {
+      return candidate.height != first->height;
+    });
+    if (last - first > 1) std::sort(first, last, brighter);
+    first = last;
+  }
+}
+
 float DotMeasurement::start(const ImageView& image, bool invert, const ExtractorParameters& parameters,
                             const ImageMasks& masks, std::vector<Candidate>& candidates) noexcept {
   image_ = &image;
@@ -329,7 +343,7 @@ float DotMeasurement::start(const ImageView& image, bool invert, const Extractor
   prior_.aperture = std::sqrt(parameters.fill_factor);
   field_.clear();
   dot_of_spot_.clear();
-  std::sort(candidates.begin(), candidates.end(), brighter);
+  put_in_order(candidates);
   learn_width(candidates);
   return width_known_ ? prior_.sigma : 0;
 }
@@ -337,7 +351,9 @@ float DotMeasurement::start(const ImageView& image, bool invert, const Extractor
 std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
                                     std::vector<Dot>& dots) noexcept {
   const std::size_t enough = std::min(dots.capacity(), dots.size() + kMost);
+  const std::size_t before = dots.size();
   std::size_t measured = 0;
+  residuals_ = pixels_ = 0;
   // Peaks of one blob are taken to be spots before they are measured: their light must not draw each other.
   for (const Candidate& candidate : candidates) {
     FieldSpot spot;
@@ -370,6 +386,7 @@ std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
   }
   for (int sweep = 0; sweep < kSweeps && remeasure_crowded(candidates, dots); ++sweep) {
   }
+  for (std::size_t i = before; i < dots.size(); ++i) dots[i].covariance *= noise_share();
   std::erase_if(dots, [](const Dot& dot) { return dot.snr == 0; });
   return candidates.size() - measured;
 }

@@ -10,6 +10,7 @@
 #include "components/extractor/candidate.hpp"
 #include "components/extractor/dot.hpp"
 #include "components/extractor/extractor_parameters.hpp"
+#include "components/extractor/falling_order.hpp"
 #include "components/extractor/spot_field.hpp"
 #include "components/extractor/spot_fit.hpp"
 #include "components/extractor/trail_fit.hpp"
@@ -34,8 +35,11 @@ class DotMeasurement {
   std::size_t measure(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
 
  private:
+  void put_in_order(std::vector<Candidate>& candidates) noexcept;
   void learn_width(const std::vector<Candidate>& candidates) noexcept;
   Eigen::Matrix2d grown(const Eigen::Matrix2d& covariance, double chi2_per_pixel, float snr) const noexcept;
+  double significant_chi2() const noexcept;
+  double noise_share() const noexcept;
   bool try_trail(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool may_be_point(const Candidate& candidate) const noexcept;
   bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
@@ -64,9 +68,12 @@ class DotMeasurement {
   bool width_known_ = false;
   bool trails_ = false;      // most spots of the image are long
   double least_beside_ = 0;  // light of a neighbour over that of the brightest pixel, of the narrowest spot
-  SpotField field_;          // one spot a candidate
-  std::vector<int> dot_of_spot_;  // −1: none
+  double residuals_ = 0, pixels_ = 0;  // χ² of the spots that are as the model says, and their pixels
+  SpotField field_;                    // one spot a candidate
+  std::vector<int> dot_of_spot_;       // −1: none
   std::vector<float> widths_;
+  std::vector<Ranked> ranking_, ranking_scratch_;
+  std::vector<Candidate> unordered_;
 };
 
 }  // namespace omma

@@ -49,8 +49,9 @@ void HalvedImage::enlarge(const BackgroundMap& background, Candidate& candidate)
   for (int* side : {&candidate.left, &candidate.top}) *side *= 2;
   for (int* side : {&candidate.right, &candidate.bottom}) *side = 2 * *side + 1;
   candidate.area *= 4;
-  candidate.u = 2 * candidate.u + 0.5F;
-  candidate.v = 2 * candidate.v + 0.5F;
+  for (float* place : {&candidate.u, &candidate.v, &candidate.top_u, &candidate.top_v})
+    *place = 2 * *place + 0.5F;
+  for (float* lean : {&candidate.lean_u, &candidate.lean_v}) *lean *= 0.5F;  // tanh(δ / s²), small
   candidate.peak *= 0.25F;
   candidate.height *= 0.25F;
   candidate.threshold *= 0.5F;

@@ -9,7 +9,6 @@ namespace omma {
 namespace {
 
 constexpr float kNeighbourError = 0.1F;  // a neighbour's light is known to this share of it
-constexpr float kMargin = 7;             // a spot may have moved from the cell it was put into [px]
 constexpr float kNoLight = 0.1F;         // [standard deviations of a pixel]
 
 float reach(const FieldSpot& spot) {
@@ -22,13 +21,16 @@ SpotField::SpotField(int width, int height, std::size_t spots)
     : columns_((width + kCell - 1) / kCell), rows_((height + kCell - 1) / kCell) {
   first_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   spots_.reserve(spots);
+  homes_.reserve(spots);
   clear();
 }
 
 void SpotField::clear() noexcept {
   std::fill(first_.begin(), first_.end(), -1);
   spots_.clear();
+  homes_.clear();
   largest_reach_ = 0;
+  largest_move_ = 0;
 }
 
 std::size_t SpotField::add(const FieldSpot& spot) noexcept {
@@ -36,18 +38,20 @@ std::size_t SpotField::add(const FieldSpot& spot) noexcept {
   const int row = std::clamp(static_cast<int>(spot.v) / kCell, 0, rows_ - 1);
   int& head = first_[index_of(row, column, columns_)];
   spots_.push_back(spot);
-  spots_.back().next = head;
+  homes_.push_back({spot.u, spot.v, head});
   head = static_cast<int>(spots_.size()) - 1;
   if (spot.flux > 0) largest_reach_ = std::max(largest_reach_, reach(spot));
   return spots_.size() - 1;
 }
 
+// Visits every spot within `distance` of (u, v) on both axes, and some beyond.
 template <class Visit>
 void SpotField::for_near(float u, float v, float distance, Visit&& visit) const noexcept {
+  distance += largest_move_;
   const auto cell = [](float x) { return static_cast<int>(std::max(0.0F, x)) / kCell; };
   for (int r = cell(v - distance); r <= std::min(rows_ - 1, cell(v + distance)); ++r) {
     for (int c = cell(u - distance); c <= std::min(columns_ - 1, cell(u + distance)); ++c) {
-      for (int i = first_[index_of(r, c, columns_)]; i >= 0; i = spots_[static_cast<std::size_t>(i)].next) {
+      for (int i = first_[index_of(r, c, columns_)]; i >= 0; i = homes_[static_cast<std::size_t>(i)].next) {
         const FieldSpot& spot = spots_[static_cast<std::size_t>(i)];
         if (spot.flux > 0) visit(static_cast<std::size_t>(i), spot);
       }
@@ -56,17 +60,18 @@ void SpotField::for_near(float u, float v, float distance, Visit&& visit) const 
 }
 
 void SpotField::set(std::size_t i, const FieldSpot& spot) noexcept {
-  const int next = spots_[i].next;
   spots_[i] = spot;
-  spots_[i].next = next;
-  if (spot.flux > 0) largest_reach_ = std::max(largest_reach_, reach(spot));
+  if (!(spot.flux > 0)) return;
+  largest_reach_ = std::max(largest_reach_, reach(spot));
+  const Home& home = homes_[i];
+  largest_move_ = std::max({largest_move_, std::fabs(spot.u - home.u), std::fabs(spot.v - home.v)});
 }
 
 bool SpotField::is_alone(std::size_t self, int radius) const noexcept {
   const FieldSpot& at = spots_[self];
   const float half = static_cast<float>(radius) + 1;
   bool alone = true;
-  for_near(at.u, at.v, half + kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
+  for_near(at.u, at.v, half + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
     const float far = half + reach(spot);
     alone = alone && (i == self || std::fabs(spot.u - at.u) > far || std::fabs(spot.v - at.v) > far);
   });
@@ -80,7 +85,7 @@ bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) con
   const float least = kNoLight * noise;
   const float per_variance = kNeighbourError * kNeighbourError / (noise * noise);
   bool any = false;
-  for_near(middle_u, middle_v, half + kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
+  for_near(middle_u, middle_v, half + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
     const float far = half + reach(spot);
     if (i == self || std::fabs(spot.u - middle_u) > far || std::fabs(spot.v - middle_v) > far) return;
     SpotProfile along_u, along_v;
@@ -104,7 +109,8 @@ bool SpotField::take_away(std::size_t self, float noise, SpotWindow& window) con
 
 bool SpotField::has_twin(std::size_t self, float u, float v) const noexcept {
   bool found = false;
-  for_near(u, v, kMargin + largest_reach_, [&](std::size_t i, const FieldSpot& spot) {
+  const float largest_twin = std::max(1.0F, largest_reach_);  // a spot's reach is more than its twin distance
+  for_near(u, v, largest_twin, [&](std::size_t i, const FieldSpot& spot) {
     const float du = spot.u - u;
     const float dv = spot.v - v;
     const float twin = std::max(1.0F, 1.2F * spot.sigma);

@@ -13,7 +13,6 @@ struct FieldSpot {
   float u = 0, v = 0;  ///< [px]
   float sigma = 1;     ///< [px]
   float flux = 0;      ///< [grey levels]; 0: there is none after all
-  int next = -1;       ///< in the same cell of the field
 };
 
 class SpotField {
@@ -45,9 +44,16 @@ class SpotField {
   void for_near(float u, float v, float distance, Visit&& visit) const noexcept;
 
   int columns_, rows_;
+  struct Home {
+    float u, v;  // where it was added: it stays in that cell [px]
+    int next;    // in the same cell; −1: none
+  };
+
   std::vector<int> first_;  // of each cell
   std::vector<FieldSpot> spots_;
+  std::vector<Home> homes_;
   float largest_reach_ = 0;  // of any spot's light [px]
+  float largest_move_ = 0;   // of any spot from its home, on either axis [px]
 };
 
 }  // namespace omma

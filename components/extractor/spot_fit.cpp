@@ -20,6 +20,10 @@ constexpr double kLargestSigma = 5.0;  // [px]
 // A step this small against the place's own error is the last: the next would be smaller by the
 // signal-to-noise ratio and more.
 constexpr double kLastStep = 0.4;
+// So is one after which the model's curvature leaves no more than this of that error, as long as the flux, on
+// which the covariance depends, is about right.
+constexpr double kCurvature = 0.15;
+constexpr double kFluxStep = 0.12;
 
 // Sums over the rows, column by column: of the weight times products of the row's factors E, D = ∂E/∂v,
 // S = ∂E/∂σ, and of the weighted residual times the factors. The model is a product of a row's factor and a
@@ -175,6 +179,18 @@ OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const S
   fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
 }
 
+// The information is that of where the last step began: what the covariance grows by on the way to its end.
+// Of a spot over a dark background it goes with T²/F², of one whose own photons are all the noise with T/F, T
+// being the variance of the spot integrated over the pixel.
+double covariance_growth(const State& before, const State& after, const Variance& variance) {
+  const auto width = [](const State& s) { return s.sigma * s.sigma + 1.0 / 12; };
+  const double growth = before.flux * width(after) / (after.flux * width(before));
+  // By the light half way up the spot.
+  const double dark = 4 * M_PI * width(before) * static_cast<double>(variance.dark);
+  const double share = dark / (dark + static_cast<double>(variance.per_light) * before.flux);
+  return growth * (1 + share * (growth - 1));
+}
+
 }  // namespace
 
 void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior& prior,
@@ -218,8 +234,16 @@ void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior
     settled = step[3] * step[3] < kLastStep * kLastStep * factor.inverse[3] &&
               step[4] * step[4] < kLastStep * kLastStep * factor.inverse[4] &&
               change * change < kLastStep * kLastStep * factor.inverse[1];
+    const double moved = step[3] * step[3] + step[4] * step[4];
+    const double brighter = std::abs(at.flux / flux_before - 1);
+    const double left =
+        brighter + 2 * std::abs(change) / sigma_before + 0.25 * moved / (sigma_before * sigma_before);
+    settled = settled || (brighter < kFluxStep &&
+                          moved * left * left <
+                              kCurvature * kCurvature * std::min(factor.inverse[3], factor.inverse[4]));
   }
-  fit.covariance = factor.covariance_of_place();
+  fit.covariance =
+      factor.covariance_of_place() * covariance_growth({flux_before, sigma_before, 0, 0, 0}, at, variance);
   if (!settled) {  // it still moves by so much
     fit.covariance(0, 0) += step[3] * step[3];
     fit.covariance(1, 1) += step[4] * step[4];

@@ -46,24 +46,20 @@ struct SpotProfile {
   /// @param pixels  odd; the padding behind them is set to 0
   [[gnu::always_inline]] void fill(float place, float sigma, int pixels) {
     const float per_sigma = 1.0F / sigma;
-    std::array<float, kSpotSide + kLanes> below;    // light below the pixel's lower edge
-    std::array<float, kSpotSide + kLanes> density;  // φ(z)
-    std::array<float, kSpotSide + kLanes> moment;   // z φ(z)
     const int all = padded(pixels);
     Floats edge = Floats{0, 1, 2, 3, 4, 5, 6, 7} - (0.5F + place);
-    for (int i = 0; i < all; i += 8, edge += 8.0F) {
-      const Edge at(edge * per_sigma);
-      store(&below[static_cast<std::size_t>(i)], at.below);
-      store(&density[static_cast<std::size_t>(i)], at.density);
-      store(&moment[static_cast<std::size_t>(i)], at.moment);
-    }
     Ints column = Ints{0, 1, 2, 3, 4, 5, 6, 7};
+    Edge lower(edge * per_sigma);
     for (int k = 0; k < all; k += 8, column += 8) {
+      edge += 8.0F;
+      // The last pixel is padding: no upper edge is asked of it.
+      const Edge next = k + 8 < all ? Edge(edge * per_sigma) : lower;
       const auto i = static_cast<std::size_t>(k);
       const Ints inside = column < pixels;
-      put(&share[i], load(&below[i + 1]) - load(&below[i]), inside);
-      put(&by_place[i], (load(&density[i]) - load(&density[i + 1])) * per_sigma, inside);
-      put(&by_sigma[i], (load(&moment[i]) - load(&moment[i + 1])) * per_sigma, inside);
+      put(&share[i], following(lower.below, next.below) - lower.below, inside);
+      put(&by_place[i], (lower.density - following(lower.density, next.density)) * per_sigma, inside);
+      put(&by_sigma[i], (lower.moment - following(lower.moment, next.moment)) * per_sigma, inside);
+      lower = next;
     }
   }
 
@@ -104,6 +100,10 @@ struct SpotProfile {
       moment = 0.398942280F * z * bell;
     }
   };
+  // One lane further along a row of which two vectors are given.
+  [[gnu::always_inline]] static Floats following(const Floats& here, const Floats& next) {
+    return __builtin_shufflevector(here, next, 1, 2, 3, 4, 5, 6, 7, 8);
+  }
   [[gnu::always_inline]] static void put(float* to, const Floats& x, const Ints& inside) {
     store(to, std::bit_cast<Floats>(std::bit_cast<Ints>(x) & inside));
   }

@@ -18,6 +18,7 @@ CameraDots::CameraDots(const ExtractorCamera& camera)
       has_mask_(camera.mask.any()),
       illumination_(camera.illumination),
       extractor_(camera.width, camera.height),
+      tiles_(camera.width, camera.height),
       level_row_(static_cast<std::size_t>(camera.width)) {
   tune(camera.parameters);
   if (!camera.glare) return;
@@ -40,10 +41,13 @@ const PixelMask* CameraDots::masked(const ImageView& image) noexcept {
   return &mask_now_;
 }
 
-void CameraDots::find(const ImageView& raw, DotList& list) noexcept {
+void CameraDots::find(const ImageView& raw, DotList& list, const CameraWindows* where) noexcept {
   const PixelMask* blind = masked(raw);
   const ImageView image = correction_.correct(raw);
-  extractor_.extract(image, parameters_, {blind, correction_.bad_pixels()}, list);
+  list.everywhere = where == nullptr || where->everywhere;
+  if (!list.everywhere) tiles_.set(where->windows);
+  extractor_.extract(image, parameters_, {blind, correction_.bad_pixels()}, list,
+                     list.everywhere ? nullptr : &tiles_);
   list.masked = blind == nullptr ? 0.0F : static_cast<float>(blind->share());
   if (correction_.ages()) age(list);
   if (illumination_.empty()) return;

@@ -26,7 +26,8 @@ class CameraDots {
   explicit CameraDots(const ExtractorCamera& camera);
 
   /// Fills the list as DotExtractor does; fluxes are as if seen on the lens's axis.
-  void find(const ImageView& raw, DotList& list) noexcept;
+  /// @param where  null: everywhere
+  void find(const ImageView& raw, DotList& list, const CameraWindows* where = nullptr) noexcept;
 
   const FrameCorrection& correction() const { return correction_; }
   const ExtractorParameters& parameters() const { return parameters_; }
@@ -47,6 +48,7 @@ class CameraDots {
   PixelMask mask_now_;  // with the frame's glare
   RelativeIllumination illumination_;
   DotExtractor extractor_;
+  WindowTiles tiles_;
   std::vector<float> level_row_;
   // Dots of the frame in which the black frame last aged.
   StaticVector<Eigen::Vector2f, 64> aged_at_;

@@ -10,15 +10,16 @@ CandidateSearch::CandidateSearch(int width, int height)
 
 std::uint32_t CandidateSearch::find(const ImageView& image, bool invert,
                                     const ExtractorParameters& parameters, const PixelMask* blind,
-                                    std::vector<Candidate>& candidates) noexcept {
+                                    const WindowTiles* windows, std::vector<Candidate>& candidates) noexcept {
   image_ = image;
   invert_ = invert;
   blind_ = blind;
+  windows_ = windows;
   parameters_ = &parameters;
   candidates_ = &candidates;
   without_room_ = 0;
   background_.build(image, invert, blind);
-  filter_.start(image, invert, background_, parameters.threshold);
+  filter_.start(image, invert, background_, parameters.threshold, windows);
   blobs_.start();
   const auto finished = [this](const Blob& blob) { add_candidates(blob); };
   for (int v = 1; v < height_ - 1; ++v) {
@@ -34,6 +35,9 @@ std::uint32_t CandidateSearch::find(const ImageView& image, bool invert,
 
 void CandidateSearch::add_candidates(const Blob& blob) noexcept {
   if (std::max(blob.width(), blob.height()) > parameters_->max_diameter) return;
+  // What reaches out of the windows is not what was expected in them, and only a part of it is known.
+  if (windows_ != nullptr && !windows_->hold(blob.left - 1, blob.top - 1, blob.right + 1, blob.bottom + 1))
+    return;
   Candidate candidate;
   candidate.left = blob.left;
   candidate.right = blob.right;

@@ -22,9 +22,11 @@ class CandidateSearch {
   /// Adds the image's candidates; where their capacity does not suffice, the faint half gives way.
   /// @param invert  the dots are darker than the background
   /// @param blind   of the same size: no pixel in it is part of a dot; null: none
+  /// @param windows of the same size: only dots that lie in them; null: everywhere
   /// @return how many gave way
   std::uint32_t find(const ImageView& image, bool invert, const ExtractorParameters& parameters,
-                     const PixelMask* blind, std::vector<Candidate>& candidates) noexcept;
+                     const PixelMask* blind, const WindowTiles* windows,
+                     std::vector<Candidate>& candidates) noexcept;
 
   const BackgroundMap& background() const { return background_; }  ///< of the last image
 
@@ -44,6 +46,7 @@ class CandidateSearch {
   ImageView image_;
   bool invert_ = false;
   const PixelMask* blind_ = nullptr;
+  const WindowTiles* windows_ = nullptr;
   const ExtractorParameters* parameters_ = nullptr;
   std::vector<Candidate>* candidates_ = nullptr;
   std::uint32_t without_room_ = 0;

@@ -146,6 +146,17 @@ OMMA_CLONES std::uint64_t bits_of(const std::uint16_t* above, const std::uint16_
   return strip_bits<std::int32_t>(above, here, below, turn, start, slope);
 }
 
+// Calls visit(first, last) with each run of set bits.
+template <class Visit>
+void for_runs(std::uint64_t bits, Visit&& visit) {
+  while (bits != 0) {
+    const int first = std::countr_zero(bits);
+    const int end = first + std::countr_one(bits >> first);
+    visit(first, end - 1);
+    bits = end == 64 ? 0 : bits & (~std::uint64_t{0} << end);
+  }
+}
+
 }  // namespace
 
 DetectionFilter::DetectionFilter(int width, int height) : width_(width), height_(height) {
@@ -173,8 +184,9 @@ float DetectionFilter::threshold_of(int row, int column) const noexcept {
 }
 
 void DetectionFilter::start(const ImageView& image, bool invert, const BackgroundMap& background,
-                            float threshold) noexcept {
+                            float threshold, const WindowTiles* windows) noexcept {
   image_ = &image;
+  windows_ = windows;
   invert_ = invert;
   columns_ = background.columns();
   rows_ = background.rows();
@@ -190,8 +202,7 @@ void DetectionFilter::start(const ImageView& image, bool invert, const Backgroun
   }
   choose_scale(background);
   band_ = -2;
-  average_row(0);
-  average_row(1);
+  averaged_row_.fill(-1);
 }
 
 // The finest steps with which the thresholds of the whole image still fit into 8 bits.
@@ -212,27 +223,46 @@ void DetectionFilter::choose_scale(const BackgroundMap& background) noexcept {
   exponent_ = std::max(exponent_, least);
 }
 
+// Where a row above, at or below v is asked for.
 void DetectionFilter::average_row(int v) noexcept {
   const std::size_t slot = index_of(v % 3);
+  averaged_row_[slot] = v;
+  any_full_[slot] = false;
+  std::fill(full_[slot].begin(), full_[slot].end(), std::uint8_t{0});
+  if (windows_ == nullptr) return average_words(v, 0, words() - 1);
+  for_runs(windows_->row(v - 1) | windows_->row(v) | windows_->row(v + 1),
+           [&](int first, int last) { average_words(v, first, last); });
+}
+
+void DetectionFilter::average_words(int v, int first, int last) noexcept {
+  const std::size_t slot = index_of(v % 3);
+  const int begin = first * kWord;
+  const int end = (last + 1) * kWord;
+  const int left = std::max(0, begin - 1);
+  const int count = std::min(width_, end + 1) - left;
+  std::uint8_t* narrow = &narrow_[index_of(left)];
   std::uint8_t most = 0;
   if (image_->format == PixelFormat::kGrey8) {
-    most = narrow_8(image_->row<std::uint8_t>(v), width_, invert_ ? 0xFF : 0,
-                    static_cast<std::uint8_t>(pedestal_), exponent_, narrow_.data());
+    most = narrow_8(image_->row<std::uint8_t>(v) + left, count, invert_ ? 0xFF : 0,
+                    static_cast<std::uint8_t>(pedestal_), exponent_, narrow);
   } else {
-    most = narrow_16(image_->row<std::uint16_t>(v), width_, image_->white_level, invert_,
-                     static_cast<std::uint16_t>(pedestal_), exponent_, narrow_.data());
+    most = narrow_16(image_->row<std::uint16_t>(v) + left, count, image_->white_level, invert_,
+                     static_cast<std::uint16_t>(pedestal_), exponent_, narrow);
   }
-  average_across(narrow_.data(), width_, across_[slot].data());
-  any_full_[slot] = most >= kFull;
-  if (any_full_[slot]) {
-    find_over(narrow_.data(), full_limit_.data(), words(), full_[slot].data());
-  } else {
-    std::fill(full_[slot].begin(), full_[slot].end(), std::uint8_t{0});
-  }
+  average_across(narrow, count, &across_[slot][index_of(left)]);
+  if (most < kFull) return;
+  any_full_[slot] = true;
+  find_over(&narrow_[index_of(begin)], full_limit_.data(), last - first + 1, &full_[slot][index_of(first)]);
 }
 
 bool DetectionFilter::row(int v) noexcept {
-  average_row(v + 1);
+  const std::uint64_t asked = windows_ != nullptr ? windows_->row(v) : ~std::uint64_t{0};
+  if (asked == 0) {
+    std::fill(found_.begin(), found_.end(), std::uint64_t{0});
+    return false;
+  }
+  for (int r = v - 1; r <= v + 1; ++r)
+    if (averaged_row_[index_of(r % 3)] != r) average_row(r);
   const bool full = any_full_[0] || any_full_[1] || any_full_[2];
   const int offset = v - kCell / 2;
   const int band = offset < 0 ? -1 : offset / kCell;
@@ -255,9 +285,11 @@ bool DetectionFilter::row(int v) noexcept {
     const auto first = limit_.begin() + std::ptrdiff_t{k} * kStripsOfWord;
     word_limit_[static_cast<std::size_t>(k)] = *std::min_element(first, first + kStripsOfWord);
   }
-  average_down(across_[static_cast<std::size_t>((v - 1) % 3)].data(),
-               across_[static_cast<std::size_t>(v % 3)].data(), across_[index_of((v + 1) % 3)].data(),
-               word_limit_.data(), count, averaged_.data(), over_.data());
+  if (windows_ == nullptr) {
+    average_down_words(v, 0, count - 1);
+  } else {
+    for_runs(asked, [&](int first, int last) { average_down_words(v, first, last); });
+  }
   place_row(v);
   bool any = false;
   for (int first = 0; first < count; first += 64) {
@@ -265,6 +297,7 @@ bool DetectionFilter::row(int v) noexcept {
     std::uint64_t wanted = bits_of_bytes(&over_[index_of(first)], block);
     if (full)
       for (int k = 0; k < block; ++k) wanted |= static_cast<std::uint64_t>(near_full(first + k)) << k;
+    if (windows_ != nullptr) wanted &= asked;
     std::uint64_t& found = found_[index_of(first / 64)];
     found = 0;
     for (; wanted != 0; wanted &= wanted - 1) {
@@ -276,6 +309,13 @@ bool DetectionFilter::row(int v) noexcept {
     any = any || found != 0;
   }
   return any;
+}
+
+void DetectionFilter::average_down_words(int v, int first, int last) noexcept {
+  const std::size_t begin = index_of(first, 0, kWord);
+  const auto across = [&](int row) { return &across_[index_of(row % 3)][begin]; };
+  average_down(across(v - 1), across(v), across(v + 1), &word_limit_[index_of(first)], last - first + 1,
+               &averaged_[begin], &over_[index_of(first)]);
 }
 
 // Pixels over the threshold in a word of which some strip may hold one. @param all  all its strips may

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "components/extractor/background_map.hpp"
+#include "components/extractor/window_tiles.hpp"
 #include "hal/image.hpp"
 
 namespace omma {
@@ -19,14 +20,16 @@ inline constexpr float kFilterDeviation = 6;  ///< of the smoothed value for pix
 
 class DetectionFilter {
  public:
-  static constexpr int kWord = 64;  ///< pixels to a word of bits
+  static constexpr int kWord = WindowTiles::kWidth;  ///< pixels to a word of bits
 
   /// Allocates for images of exactly this size.
   DetectionFilter(int width, int height);
 
   /// Takes an image; rows are then asked for in rising order from 1.
   /// @param threshold  in standard deviations of the smoothed value
-  void start(const ImageView& image, bool invert, const BackgroundMap& background, float threshold) noexcept;
+  /// @param windows    of an image of this size: nothing is found elsewhere; null: everywhere
+  void start(const ImageView& image, bool invert, const BackgroundMap& background, float threshold,
+             const WindowTiles* windows = nullptr) noexcept;
 
   /// The pixels of row v over the threshold, 1 <= v < height − 1.
   /// @return whether there is any; bit u % 64 of word u / 64
@@ -43,6 +46,8 @@ class DetectionFilter {
  private:
   void choose_scale(const BackgroundMap& background) noexcept;
   void average_row(int v) noexcept;
+  void average_words(int v, int first, int last) noexcept;
+  void average_down_words(int v, int first, int last) noexcept;
   bool near_full(int k) const noexcept;
   void place_row(int v) noexcept;
   std::uint64_t exact_word(int v, int k, bool all) const noexcept;
@@ -54,6 +59,7 @@ class DetectionFilter {
   int columns_ = 0, rows_ = 0;
   const ImageView* image_ = nullptr;
   bool invert_ = false;
+  const WindowTiles* windows_ = nullptr;
   std::vector<float> threshold_;  // of the smoothed value, one a cell
   // Of the row at hand: the thresholds of the cells above and below its middle, and how far down it is.
   const float* above_ = nullptr;
@@ -68,6 +74,7 @@ class DetectionFilter {
   std::vector<std::uint8_t> narrow_, averaged_;
   std::array<std::vector<std::uint8_t>, 3> across_;  // rows v−1, v, v+1, in turn
   std::array<std::vector<std::uint8_t>, 3> full_;    // of the same rows: words with a pixel that does not fit
+  std::array<int, 3> averaged_row_{};                // which they are
   std::array<bool, 3> any_full_{};
   std::vector<std::uint8_t> full_limit_;
   std::vector<std::uint64_t> words_;  // those of found_ are of the row at hand

@@ -40,6 +40,7 @@ struct DotList {
   std::uint32_t dropped = 0;  ///< dots found beyond the capacity, the faintest
   float background = 0;       ///< median background [grey levels]
   float noise = 0;            ///< median standard deviation of a pixel [grey levels]
+  bool everywhere = true;     ///< false: looked for in windows about expected dots only
   float masked = 0;           ///< share of the image in which nothing was looked for
   StaticVector<Dot, limits::kDotsPerCamera> dots;
 };

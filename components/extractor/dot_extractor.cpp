@@ -26,8 +26,9 @@ DotExtractor::DotExtractor(int width, int height)
 }
 
 void DotExtractor::extract(const ImageView& image, const ExtractorParameters& parameters,
-                           const ImageMasks& masks, DotList& list) noexcept {
+                           const ImageMasks& masks, DotList& list, const WindowTiles* windows) noexcept {
   masks_ = masks;
+  windows_ = windows;
   list.dots.clear();
   list.dropped = 0;
   found_.clear();
@@ -43,7 +44,7 @@ void DotExtractor::extract(const ImageView& image, const ExtractorParameters& pa
 void DotExtractor::search(const ImageView& image, const ExtractorParameters& parameters,
                           bool invert) noexcept {
   candidates_.clear();
-  overflow_ += fine_.find(image, invert, parameters, masks_.blind, candidates_);
+  overflow_ += fine_.find(image, invert, parameters, masks_.blind, windows_, candidates_);
   const float width = measurement_.start(image, invert, parameters, masks_, candidates_);
   if (width > kWide && width_ >= 6 && height_ >= 6) {
     add_wide(image, parameters, invert, width);
@@ -59,8 +60,11 @@ void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& p
   coarse_candidates_.clear();
   if (masks_.blind != nullptr) halved_mask_.halve(*masks_.blind);
   overflow_ += coarse_.find(halved_.build(image), invert, parameters,
-                            masks_.blind != nullptr ? &halved_mask_ : nullptr, coarse_candidates_);
+                            masks_.blind != nullptr ? &halved_mask_ : nullptr, nullptr, coarse_candidates_);
   for (Candidate& candidate : coarse_candidates_) HalvedImage::enlarge(fine_.background(), candidate);
+  if (windows_ != nullptr)
+    std::erase_if(coarse_candidates_,
+                  [this](const Candidate& c) { return !windows_->hold(c.left, c.top, c.right, c.bottom); });
   std::sort(coarse_candidates_.begin(), coarse_candidates_.end(),
             [](const Candidate& a, const Candidate& b) { return a.v != b.v ? a.v < b.v : a.u < b.u; });
   const float near = 2 * width + 1;

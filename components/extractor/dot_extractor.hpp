@@ -22,9 +22,10 @@ class DotExtractor {
 
   /// Fills the dots, their count dropped, background and noise of `list`; its frame, time and status are the
   /// caller's. An image of another size, or smaller than 3×3, gives no dots.
-  /// @param masks  of the image's size, or null
+  /// @param masks    of the image's size, or null
+  /// @param windows  of the image's size: only dots that lie in them; null: everywhere
   void extract(const ImageView& image, const ExtractorParameters& parameters, const ImageMasks& masks,
-               DotList& list) noexcept;
+               DotList& list, const WindowTiles* windows = nullptr) noexcept;
   void extract(const ImageView& image, const ExtractorParameters& parameters, DotList& list) noexcept {
     extract(image, parameters, {}, list);
   }
@@ -44,6 +45,7 @@ class DotExtractor {
   int width_;
   int height_;
   ImageMasks masks_;
+  const WindowTiles* windows_ = nullptr;
   CandidateSearch fine_;
   HalvedImage halved_;
   CandidateSearch coarse_;

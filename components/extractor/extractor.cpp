@@ -11,6 +11,7 @@ Extractor::Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool)
 
 void Extractor::visit_ports(PortVisitor& visitor) const {
   visitor.input("frames", frames);
+  if (windows.source() != nullptr) visitor.input("windows", windows);
   if (tuning.bound()) visitor.input("tuning", tuning.port());
   visitor.output("dots", dots);
 }
@@ -57,7 +58,8 @@ void Extractor::extract_camera(std::size_t camera) noexcept {
   list.dropped = 0;
   // Only a frame of this trigger may be used: an old one shows where the sky was.
   if (frame.status != FrameStatus::kFresh) return;
-  cameras_[camera]->find(frame.image, list);
+  const bool told = windows.source() != nullptr && camera < windows->cameras.size();
+  cameras_[camera]->find(frame.image, list, told ? &windows->cameras[camera] : nullptr);
 }
 
 }  // namespace omma

@@ -24,6 +24,7 @@ class Extractor final : public Component {
   Extractor(std::span<const ExtractorCamera> cameras, WorkerPool& pool);
 
   In<Frames> frames;
+  In<SearchWindows> windows;  ///< unbound: everywhere
   ParameterInput tuning;
   Out<DotLists> dots;
 

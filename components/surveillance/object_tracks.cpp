@@ -65,6 +65,7 @@ void ObjectTracks::take(std::span<const LeftoverDot> dots, const SkyFrame& frame
     }
   }
   confirm();
+  if (!frame.everywhere) return;
   begin_tracks(dots, frame);
   learn_density(dots);
 }
@@ -169,6 +170,7 @@ bool ObjectTracks::should_be_seen(const ObjectTrack& track, const SkyFrame& fram
 }
 
 void ObjectTracks::miss(ObjectTrack& track, const SkyFrame& frame) noexcept {
+  if (track.number == 0 && !frame.everywhere) return;  // windows are about confirmed objects only
   if (std::sqrt(track.state.covariance().trace()) > parameters_.largest_sigma && track.sightings > 1) {
     track.active = false;
     return;

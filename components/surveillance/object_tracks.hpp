@@ -40,6 +40,7 @@ struct SkyFrame {
   Eigen::Quaterniond rig_from_j2000 = Eigen::Quaterniond::Identity();
   Eigen::Matrix3d attitude_covariance = Eigen::Matrix3d::Zero();  ///< small rotation, rig frame [rad²]
   std::array<bool, limits::kCameras> looking{};                   ///< cameras with a fresh frame
+  bool everywhere = true;  ///< false: dots were looked for in windows about expected ones only
 };
 
 /// All storage inside; nothing is allocated.

@@ -34,8 +34,10 @@ void Surveillance::step(const Tick& /*tick*/) noexcept {
     frame.time_ns = dots->time_ns;
     frame.rig_from_j2000 = attitude->solution.rig_from_j2000;
     frame.attitude_covariance = attitude->solution.covariance;
-    for (std::size_t c = 0; c < dots->cameras.size(); ++c)
+    for (std::size_t c = 0; c < dots->cameras.size(); ++c) {
       frame.looking[c] = dots->cameras[c].status == FrameStatus::kFresh;
+      frame.everywhere = frame.everywhere && dots->cameras[c].everywhere;
+    }
     const std::span<const LeftoverDot> found =
         leftovers_.find(*dots, *pairings, *attitude, rig_, catalogue_, floor_px_, parameters_.gate_chi2);
     out.leftover_dots = static_cast<std::uint32_t>(found.size());

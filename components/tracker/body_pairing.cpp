@@ -5,28 +5,32 @@
 
 namespace omma {
 
-void BodyPairing::predict(const RigCamera& camera, const BodyPrediction& body, std::size_t index) noexcept {
-  const Pose& rig_from_body = body.pose.rig_from_body;
+bool predict_target(const RigCamera& camera, const PredictedPose& pose, const Eigen::Vector3d& position,
+                    PredictedPoint& point) noexcept {
   const Eigen::Matrix3d camera_from_rig = camera.rig_from_camera.rotation.toRotationMatrix().transpose();
-  const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
-  const Eigen::Vector3d viewpoint = rig_from_body.inverse() * camera.rig_from_camera.translation;
+  const Eigen::Vector3d arm = pose.rig_from_body.rotation.toRotationMatrix() * position;
+  const Eigen::Vector3d gap = arm + pose.rig_from_body.translation - camera.rig_from_camera.translation;
+  const double range = gap.norm();
+  if (!(range > 0)) return false;
+  const Eigen::Vector3d direction = gap / range;
+  Eigen::Matrix<double, 2, 3> pixel_by_direction;
+  if (!camera.lens.project(camera_from_rig * direction, point.pixel, pixel_by_direction)) return false;
+  // The target moves by δθ × (R g) + δt; only the part across the line of sight turns the direction.
+  Eigen::Matrix<double, 3, 6> point_by_pose;
+  point_by_pose << -skew(arm), Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - direction * direction.transpose()) / range;
+  const Eigen::Matrix<double, 2, 6> pixel_by_pose =
+      pixel_by_direction * camera_from_rig * across * point_by_pose;
+  point.covariance = pixel_by_pose * pose.covariance * pixel_by_pose.transpose();
+  return true;
+}
+
+void BodyPairing::predict(const RigCamera& camera, const BodyPrediction& body, std::size_t index) noexcept {
+  const Eigen::Vector3d viewpoint = body.pose.rig_from_body.inverse() * camera.rig_from_camera.translation;
   for (std::size_t i = 0; i < body.body->targets.size(); ++i) {
-    if (!faces(body.body->targets[i], viewpoint)) continue;
-    const Eigen::Vector3d arm = rotation * body.body->targets[i].position;
-    const Eigen::Vector3d gap = arm + rig_from_body.translation - camera.rig_from_camera.translation;
-    const double range = gap.norm();
-    if (!(range > 0)) continue;
-    const Eigen::Vector3d direction = gap / range;
+    const Target& target = body.body->targets[i];
     PredictedPoint point;
-    Eigen::Matrix<double, 2, 3> pixel_by_direction;
-    if (!camera.lens.project(camera_from_rig * direction, point.pixel, pixel_by_direction)) continue;
-    // The target moves by δθ × (R g) + δt; only the part across the line of sight turns the direction.
-    Eigen::Matrix<double, 3, 6> point_by_pose;
-    point_by_pose << -skew(arm), Eigen::Matrix3d::Identity();
-    const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - direction * direction.transpose()) / range;
-    const Eigen::Matrix<double, 2, 6> pixel_by_pose =
-        pixel_by_direction * camera_from_rig * across * point_by_pose;
-    point.covariance = pixel_by_pose * body.pose.covariance * pixel_by_pose.transpose();
+    if (!faces(target, viewpoint) || !predict_target(camera, body.pose, target.position, point)) continue;
     point.entry = static_cast<std::uint16_t>(index * limits::kTargetsPerBody + i);
     points_.push_back(point);
   }

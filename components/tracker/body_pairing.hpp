@@ -18,6 +18,11 @@ struct PredictedPose {
   Matrix6d covariance = Matrix6d::Zero();  ///< (δθ, δt), rig frame [rad², rad·m, m²]
 };
 
+/// Pixel and covariance of a target. @param position  in the body's frame [m]
+/// @return false where the camera does not see it
+bool predict_target(const RigCamera& camera, const PredictedPose& pose, const Eigen::Vector3d& position,
+                    PredictedPoint& point) noexcept;
+
 /// One body whose targets are looked for, and what was found of it.
 struct BodyPrediction {
   const TargetBody* body = nullptr;

@@ -132,6 +132,13 @@ TrackerParameters read_tracker(const TomlTable& table) {
   return parameters;
 }
 
+LookoutParameters read_lookout(const TomlTable& table) {
+  LookoutParameters p;
+  p.full_search_every = static_cast<int>(table.integer("full_search_every", {1, 1000}, p.full_search_every));
+  table.refuse_unknown_keys();
+  return p;
+}
+
 SurveillanceParameters read_surveillance(const TomlTable& table) {
   constexpr double kDegree = std::numbers::pi / 180;
   SurveillanceParameters p;
@@ -214,6 +221,7 @@ Mission read_mission(const std::filesystem::path& file) {
   if (const auto motion = root.table_if("motion"))
     mission.motion = read_motion(*motion, mission.frame_rate_hz);
   mission.bodies = read_bodies(root);
+  if (const auto lookout = root.table_if("lookout")) mission.lookout = read_lookout(*lookout);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   mission.tracker.observer.julian_date_utc = epoch;
   if (const auto surveillance = root.table_if("surveillance"))

@@ -16,6 +16,7 @@
 #include "components/pose/relative_pose.hpp"
 #include "components/surveillance/surveillance_parameters.hpp"
 #include "components/telemetry/frame_stages.hpp"
+#include "components/tracker/lookout.hpp"
 #include "components/tracker/tracker_parameters.hpp"
 #include "fsw/app/motion_mission.hpp"
 #include "fsw/app/trigger_mission.hpp"
@@ -45,6 +46,7 @@ struct Mission {
   TriggerMission trigger;
   std::optional<MotionMission> motion;  ///< where a gimbal moves
   std::vector<TargetBody> bodies;
+  LookoutParameters lookout;
   TrackerParameters tracker;
   AttitudeParameters attitude;
   RelativePoseParameters pose;

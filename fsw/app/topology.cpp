@@ -86,6 +86,7 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       sync_trigger(trigger_line_.get(), events),
       cameras(drivers_.pointers(), events),
       exposure(drivers_.pointers(), exposure_parameters(mission_), events),
+      lookout(mission_.lookout, mission_.tracker, mission_.rig, mission_.bodies.size()),
       extractor(extractor_cameras(mission_), pool_),
       tracker(mission_.tracker, mission_.rig, catalogue_, mission_.bodies, masks(mission_)),
       attitude(mission_.attitude),
@@ -129,7 +130,14 @@ void Topology::connect() {
   imaging.tuning.bind(parameters.committed);
   cameras.trigger.bind(sync_trigger.trigger);
   exposure.frames.bind(cameras.frames);
+  lookout.frames.bind(cameras.frames);
+  lookout.dots.bind(extractor.dots);
+  lookout.pairings.bind(tracker.pairings);
+  lookout.attitude.bind(attitude.estimate);
+  lookout.poses.bind(pose.estimates);
+  lookout.objects.bind(surveillance.objects);
   extractor.frames.bind(cameras.frames);
+  extractor.windows.bind(lookout.windows);
   tracker.dots.bind(extractor.dots);
   tracker.attitude.bind(attitude.estimate);
   tracker.poses.bind(pose.estimates);
@@ -201,6 +209,7 @@ RateGroupTable Topology::table() {
                                  {sync_trigger, microseconds(100)},
                                  {cameras, microseconds(2000)},
                                  {exposure, microseconds(500)},
+                                 {lookout, microseconds(500), {}, 1, kAttitudeModes},
                                  {extractor, microseconds(10000), {}, pool_.workers(), kAttitudeModes},
                                  {tracker, microseconds(15000), overloaded, 1, kAttitudeModes},
                                  {attitude, microseconds(2000), {}, 1, kAttitudeModes},

@@ -19,6 +19,7 @@
 #include "components/surveillance/surveillance.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
 #include "components/telemetry/telemetry.hpp"
+#include "components/tracker/lookout.hpp"
 #include "components/tracker/tracker.hpp"
 #include "fsw/app/camera_drivers.hpp"
 #include "fsw/app/mission.hpp"
@@ -85,6 +86,7 @@ class Topology {
   SyncTrigger sync_trigger;
   Cameras cameras;
   Exposure exposure;
+  Lookout lookout;
   Extractor extractor;
   Tracker tracker;
   Attitude attitude;

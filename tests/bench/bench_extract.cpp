@@ -176,7 +176,7 @@ void time_of_stages(int repeats) {
     }));
     candidates.clear();
     dots.clear();
-    searching.push_back(microseconds([&] { search.find(view, false, parameters, nullptr, candidates); }));
+    searching.push_back(microseconds([&] { search.find(view, false, parameters, nullptr, nullptr, candidates); }));
     measuring.push_back(microseconds([&] {
       measurement.start(view, false, parameters, {}, candidates);
       measurement.measure(candidates, dots);

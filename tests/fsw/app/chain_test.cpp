@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "components/telemetry/log_sink.hpp"
@@ -47,7 +48,18 @@ std::filesystem::path config(const std::string& file) {
 struct FrameSetResult {
   AttitudeEstimate attitude;
   PoseEstimates poses;
+  Pairings pairings;
+  bool everywhere;  // dots were looked for
 };
+
+/// What was paired with what: camera, body and entry.
+std::set<std::array<int, 3>> names(const Pairings& pairings) {
+  std::set<std::array<int, 3>> all;
+  for (const Pairing& pair : pairings.sky.pairs) all.insert({pair.camera, -1, pair.entry});
+  for (const BodyPairings& body : pairings.bodies)
+    for (const Pairing& pair : body.pairs) all.insert({pair.camera, body.body, pair.entry});
+  return all;
+}
 
 /// Keeps what each frame set gave; its memory is there before time starts.
 class Keeper final : public ScheduleObserver {
@@ -56,7 +68,9 @@ class Keeper final : public ScheduleObserver {
     results.reserve(frame_sets);
   }
   void beat_finished(std::uint16_t group, const Tick&) noexcept override {
-    if (group == 0) results.push_back({*topology_.attitude.estimate, *topology_.pose.estimates});
+    if (group == 0)
+      results.push_back({*topology_.attitude.estimate, *topology_.pose.estimates, *topology_.tracker.pairings,
+                         topology_.extractor.dots->cameras[0].everywhere});
   }
   std::vector<FrameSetResult> results;
 
@@ -67,6 +81,10 @@ class Keeper final : public ScheduleObserver {
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+double angle_between(const AttitudeEstimate& a, const AttitudeEstimate& b) {
+  return rotation_log(a.solution.rig_from_j2000 * b.solution.rig_from_j2000.conjugate()).norm();
 }
 
 class Chain : public ::testing::Test {
@@ -99,8 +117,10 @@ class Chain : public ::testing::Test {
   }
   /// Leaves its telemetry in log(workers).
   /// @param commands  a script; empty: none are given
-  static std::vector<FrameSetResult> fly(int workers, int rounds = 1, const std::string& commands = {}) {
+  static std::vector<FrameSetResult> fly(int workers, int rounds = 1, const std::string& commands = {},
+                                         LookoutParameters lookout = {}) {
     Mission mission = read_mission(config("demo.toml"));
+    mission.lookout = lookout;
     mission.recording = frames();
     Topology topology(mission, {.lockstep = true, .workers = workers, .rounds = rounds});
     const std::uint64_t frame_sets = topology.frame_sets();
@@ -180,6 +200,28 @@ TEST_F(Chain, GivesTheSameBitsWithOneWorkerAndWithTwo) {
     EXPECT_EQ(one[f].poses.bodies[0].solution.rig_from_body.translation,
               two[f].poses.bodies[0].solution.rig_from_body.translation);
   }
+}
+
+TEST_F(Chain, PairsInWindowsWhatItPairsInWholeImages) {
+  const std::vector<FrameSetResult> whole = fly(1);
+  const std::vector<FrameSetResult> windows = fly(2, 1, {}, {.full_search_every = 5});
+  int in_windows = 0;
+  std::size_t pairs = 0, missing = 0, others = 0;
+  for (std::size_t f = 0; f < whole.size(); ++f) {
+    in_windows += windows[f].everywhere ? 0 : 1;
+    ASSERT_TRUE(windows[f].attitude.valid);
+    ASSERT_TRUE(windows[f].poses.bodies[0].valid);
+    const auto all = names(whole[f].pairings);
+    const auto found = names(windows[f].pairings);
+    pairs += all.size();
+    for (const auto& name : all) missing += found.contains(name) ? 0 : 1;
+    for (const auto& name : found) others += all.contains(name) ? 0 : 1;
+    EXPECT_LT(angle_between(whole[f].attitude, windows[f].attitude), 5 * kArcsec) << "frame set " << f;
+  }
+  RecordProperty("missing", std::to_string(missing) + " of " + std::to_string(pairs));
+  EXPECT_GE(in_windows, 10);
+  EXPECT_LT(missing, pairs / 50);  // those at the detection limit, and what came into view meanwhile
+  EXPECT_LT(others, pairs / 100);
 }
 
 TEST_F(Chain, LogsTheSameBytesWithOneWorkerAndWithTwo) {

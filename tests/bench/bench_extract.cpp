@@ -148,6 +148,42 @@ void time_of(const char* name, int count, double sigma, int repeats) {
               score.found, score.spots, score.false_dots, score.rms(), score.ratio(), score.mean_nees());
 }
 
+// The same image in windows about its spots, as the look-out gives them, and whole: in turn, so that the
+// ratio is of one machine in one state.
+void time_in_windows(int count, int repeats) {
+  SpotScene scene;
+  std::mt19937_64 random(7);
+  scene.background = 12;
+  scene.noise = 1.5;
+  scene.spots = scattered_spots(scene, count, 14, 1.0, 30, random);
+  const Image image = render(scene, random);
+  std::vector<SearchWindow> windows;
+  for (const MadeSpot& spot : scene.spots) {
+    constexpr int kHalf = 10;
+    const int u = static_cast<int>(spot.pixel.x());
+    const int v = static_cast<int>(spot.pixel.y());
+    windows.push_back({u - kHalf, v - kHalf, u + kHalf, v + kHalf});
+  }
+  WindowTiles tiles(scene.width, scene.height);
+  DotExtractor extractor(scene.width, scene.height);
+  ExtractorParameters parameters;
+  parameters.gain = 1e6F;
+  auto list = std::make_unique<DotList>();
+  std::vector<double> whole, in_windows;
+  for (int k = 0; k < repeats; ++k) {
+    whole.push_back(microseconds([&] { extractor.extract(image.view(), parameters, *list); }));
+    in_windows.push_back(microseconds([&] {
+      tiles.set(windows);
+      extractor.extract(image.view(), parameters, {}, *list, &tiles);
+    }));
+  }
+  SpotScore score;
+  score.add(scene, list->dots);
+  std::printf("  %d stars in windows: %.3f ms, %.2f of the whole image's; %d of %d, %d false\n", count,
+              1e-3 * quantile(in_windows, 0.5), quantile(in_windows, 0.5) / quantile(whole, 0.5), score.found,
+              score.spots, score.false_dots);
+}
+
 // Where the time goes: each stage by itself on the image of 500 stars.
 void time_of_stages(int repeats) {
   SpotScene scene;
@@ -176,7 +212,8 @@ void time_of_stages(int repeats) {
     }));
     candidates.clear();
     dots.clear();
-    searching.push_back(microseconds([&] { search.find(view, false, parameters, nullptr, nullptr, candidates); }));
+    searching.push_back(
+        microseconds([&] { search.find(view, false, parameters, nullptr, nullptr, candidates); }));
     measuring.push_back(microseconds([&] {
       measurement.start(view, false, parameters, {}, candidates);
       measurement.measure(candidates, dots);
@@ -256,6 +293,8 @@ int bench_extract(int argc, char** argv) {
   time_of("500 stars, 1 px", 500, 1.0, repeats);
   time_of("25 targets, 2 px", 25, 2.0, repeats);
   time_of_stages(repeats);
+  time_in_windows(20, repeats);
+  time_in_windows(60, repeats);
   real_photograph();
   if (dots == 0) return 0;
   trails(std::min(dots, 2000));

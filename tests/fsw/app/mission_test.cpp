@@ -208,6 +208,18 @@ TEST_F(MissionFile, WithSurveillanceThatCannotBeIsRefused) {
   EXPECT_THAT(message(), HasSubstr("surveillance.radar: expected "));
 }
 
+TEST_F(MissionFile, MayAskForWindowsBetweenWholeSearches) {
+  EXPECT_EQ(read_mission(file()).lookout.full_search_every, 1);
+  replace("demo.toml", "[imaging]", "[lookout]\nfull_search_every = 10\n\n[imaging]");
+  EXPECT_EQ(read_mission(file()).lookout.full_search_every, 10);
+  SetUp();
+  replace("demo.toml", "[imaging]", "[lookout]\nfull_search_every = 0\n\n[imaging]");
+  EXPECT_THAT(message(), HasSubstr("lookout.full_search_every: expected "));
+  SetUp();
+  replace("demo.toml", "[imaging]", "[lookout]\nbinoculars = true\n\n[imaging]");
+  EXPECT_THAT(message(), HasSubstr("lookout.binoculars: expected "));
+}
+
 TEST_F(MissionFile, SaysHowWrongTheCalibrationMayBe) {
   replace("demo.toml", "[tracker]",
           "[calibration_error]\nlens_scale = 2e-4\nsurvey_m = 1e-4\n\n[integrity]\nrisk = 1e-6\n\n[tracker]");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/orbit.hpp"
+#include "components/catalogue/orbit.hpp"
 
 namespace omma::sim {
 namespace {

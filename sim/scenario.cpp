@@ -42,15 +42,32 @@ GroundAxes rig_axes_at(const Scenario& scenario, double time) {
   return {orbit_axes(state), orbit_axes_rate(state)};
 }
 
+/// Frame of the rig's motion from the rig: the gimbal's own turn comes last.
+Pose frame_from_rig_at(const Scenario& scenario, double time) {
+  Pose pose = scenario.rig_motion.at(time);
+  if (scenario.gimbal) pose.rotation = (pose.rotation * scenario.gimbal->turn_at(time)).normalized();
+  return pose;
+}
+
+/// Turn of the rig against that frame, rig axes [rad/s].
+Eigen::Vector3d rate_in_frame_at(const Scenario& scenario, double time) {
+  if (!scenario.gimbal) return scenario.rig_motion.rate(time);
+  // Its pulses come in steps: the mean over eight beats.
+  constexpr double kStep = 4 * GimbalRun::kBeat;
+  const Eigen::Quaterniond before = frame_from_rig_at(scenario, time - kStep).rotation;
+  const Eigen::Quaterniond after = frame_from_rig_at(scenario, time + kStep).rotation;
+  return rotation_log(before.conjugate() * after) / (2 * kStep);
+}
+
 }  // namespace
 
 SceneInstant scene_at(const Scenario& scenario, double time) {
   SceneInstant instant;
   const GroundAxes frame = rig_axes_at(scenario, time);
   const Eigen::Quaterniond rig_from_frame =
-      scenario.rig_turn * scenario.rig_motion.at(time).rotation.conjugate();
+      scenario.rig_turn * frame_from_rig_at(scenario, time).rotation.conjugate();
   instant.rig_from_j2000 = rig_from_frame * frame.j2000_from_ground.conjugate();
-  instant.rig_rate = scenario.rig_turn * scenario.rig_motion.rate(time) + rig_from_frame * frame.rate;
+  instant.rig_rate = scenario.rig_turn * rate_in_frame_at(scenario, time) + rig_from_frame * frame.rate;
   if (scenario.ground) {
     instant.up_rig = scenario.ground->up;
     if (scenario.ground->site) {

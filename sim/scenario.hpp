@@ -6,17 +6,19 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "components/catalogue/orbit.hpp"
 #include "components/catalogue/star.hpp"
 #include "components/catalogue/target.hpp"
 #include "components/geometry/rig.hpp"
 #include "config/limits.hpp"
+#include "sim/gimbal.hpp"
 #include "sim/ground.hpp"
 #include "sim/motion.hpp"
-#include "sim/orbit.hpp"
 #include "sim/sensor.hpp"
 #include "sim/sky_scene.hpp"
 
@@ -87,6 +89,8 @@ struct Scenario {
   double truth_minimum_snr = 3;  ///< spots below this are drawn but not told
   RigFrame rig_frame = RigFrame::kJ2000;
   Motion rig_motion;  ///< frame_from_rig, rotation only
+  /// Carries the rig: turns it from there, home_from_rig.
+  std::shared_ptr<const GimbalRun> gimbal;
   /// The rig stands turned from its motion by this: a gimbal's lash, another in each trial (rig axes).
   Eigen::Quaterniond rig_turn = Eigen::Quaterniond::Identity();
   std::vector<Card> cards;

@@ -1,8 +1,11 @@
 // The tables of a scenario that say how things move: [trajectory], [orbit], and a card's motion.
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
 
+#include "components/motion/motion_files.hpp"
 #include "sim/scenario_tables.hpp"
 
 namespace omma::sim {
@@ -57,6 +60,47 @@ RigFrame frame_of(const TomlTable& table, const Scenario& scenario) {
                     '"' + frame + '"');
 }
 
+int axis_of(const TomlTable& table, const Name& name) {
+  constexpr std::string_view kAxes = "xyz";
+  const auto axis = kAxes.find(name.view());
+  if (name.view().size() != 1 || axis == std::string_view::npos)
+    throw table.error("file", "a gimbal whose axes are named x, y or z",
+                      '"' + std::string(name.view()) + '"');
+  return static_cast<int>(axis);
+}
+
+void read_flaws(const TomlTable& table, std::vector<GimbalPart>& parts) {
+  for (const TomlTable& one : table.tables_if("flaw")) {
+    const std::string name = one.text("axis");
+    const auto part = std::find_if(parts.begin(), parts.end(),
+                                   [&](const GimbalPart& p) { return p.motion.axis.name.view() == name; });
+    if (part == parts.end()) throw one.error("axis", "an axis of the gimbal", '"' + name + '"');
+    part->flaws.lash = kRadiansPerDegree * one.number("lash_deg", {0, 30}, 0);
+    part->flaws.play = kRadiansPerDegree * one.number("play_deg", {0, 30}, 0);
+    part->flaws.frequency = one.number("mode_hz", {0, 100}, 0);
+    part->flaws.damping = one.number("mode_damping", {0, 0.99}, part->flaws.damping);
+    one.refuse_unknown_keys();
+  }
+}
+
+std::shared_ptr<const GimbalRun> gimbal_of(const TomlTable& table, double duration) {
+  constexpr double kSettles = 10;  // after the trajectory's end [s]
+  constexpr double kLongest = 86400;
+  std::vector<GimbalPart> parts;
+  const auto axes = read_trajectory_file(table.path("trajectory"), read_gimbal_file(table.path("file")));
+  if (axes.size() > 3)
+    throw table.error("file", "a gimbal of three axes at most", std::to_string(axes.size()));
+  double end = duration;
+  for (const MotionAxis& axis : axes) {
+    parts.push_back({axis, axis_of(table, axis.axis.name), {}});
+    end = std::max(end, axis.trajectory.last_time());
+  }
+  if (end > kLongest) throw table.error("trajectory", "one of a day at most", std::to_string(end) + " s");
+  read_flaws(table, parts);
+  table.refuse_unknown_keys();
+  return std::make_shared<const GimbalRun>(std::move(parts), end + kSettles);
+}
+
 std::string rotation_key(RigFrame frame) {
   if (frame == RigFrame::kGround) return "rig_from_ground";
   return frame == RigFrame::kOrbit ? "rig_from_orbit" : "rig_from_j2000";
@@ -89,6 +133,7 @@ Eigen::Quaterniond quaternion_of(const TomlTable& table, std::string_view key) {
 void read_trajectory(const TomlTable& table, double duration, Scenario& scenario) {
   scenario.rig_frame = frame_of(table, scenario);
   const std::string rotation = rotation_key(scenario.rig_frame);
+  if (const auto gimbal = table.table_if("gimbal")) scenario.gimbal = gimbal_of(*gimbal, duration);
   const auto keys = table.tables_if("key");
   if (keys.empty()) {
     const Eigen::Quaterniond start = quaternion_of(table, rotation).conjugate();
@@ -112,25 +157,6 @@ void read_trajectory(const TomlTable& table, double duration, Scenario& scenario
     key.refuse_unknown_keys();
   }
   scenario.rig_motion = Motion::through(std::move(poses));
-}
-
-Orbit orbit_of(const TomlTable& table) {
-  constexpr double kLowest = 100e3;  // above the equator's radius: nothing orbits lower for long [m]
-  OrbitElements elements;
-  elements.eccentricity = table.number("eccentricity", {0, 0.99}, 0);
-  elements.semi_major_axis = 1e3 * table.number("semi_major_axis_km", {6400, 1e6});
-  elements.inclination = kRadiansPerDegree * table.number("inclination_deg", {0, 180});
-  elements.ascending_node = kRadiansPerDegree * table.number("ascending_node_deg", {-360, 360});
-  elements.argument_of_perigee = kRadiansPerDegree * table.number("argument_of_perigee_deg", {-360, 360}, 0);
-  elements.true_anomaly = kRadiansPerDegree * table.number("true_anomaly_deg", {-360, 360}, 0);
-  elements.j2 = table.flag("j2", true);
-  const double perigee = elements.semi_major_axis * (1 - elements.eccentricity) - kEarthRadius;
-  if (perigee < kLowest) {
-    throw table.error("semi_major_axis_km", "a perigee at least 100 km high",
-                      std::to_string(1e-3 * perigee) + " km");
-  }
-  table.refuse_unknown_keys();
-  return Orbit(elements);
 }
 
 Motion card_motion_of(const TomlTable& table, double duration) {

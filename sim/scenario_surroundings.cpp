@@ -1,7 +1,5 @@
 // The tables of a scenario that say what is around the rig: [ground] and [earth].
-#include "components/catalogue/apparent_place.hpp"
-#include "components/catalogue/observer.hpp"
-#include "fsw/kernel/input_error.hpp"
+#include "components/catalogue/observer_table.hpp"
 #include "sim/scenario_tables.hpp"
 
 namespace omma::sim {
@@ -27,24 +25,15 @@ NightSky night_sky_of(const TomlTable& table, bool has_site) {
   return sky;
 }
 
-GroundSite site_of(const TomlTable& table) {
-  const std::string text = table.text("site");
-  try {
-    return parse_ground_site(text);
-  } catch (const InputError&) {
-    throw table.error("site", "\"LAT,LON,HEIGHT\" in degrees, north and east, and metres", '"' + text + '"');
-  }
-}
-
 }  // namespace
 
 Ground ground_of(const TomlTable& table) {
   Ground ground;
   if (table.has("site")) {
-    ground.site = site_of(table);
+    ground.site = ground_site_of(table);
     ground.refracts = table.flag("refraction", true);
-    ground.pressure = table.number("pressure_hpa", {0, 1200}, standard_pressure(ground.site->height));
-    ground.temperature = table.number("temperature_k", {150, 350}, standard_temperature(ground.site->height));
+    ground.pressure = *ground.site->pressure;
+    ground.temperature = *ground.site->temperature;
   } else {
     ground.up = unit_vector_of(table, "up_rig");
     ground.refracts = table.flag("refraction", false);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/catalogue/observer_table.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "sim/scenario.hpp"
 
@@ -23,7 +24,6 @@ Sensor sensor_of(const TomlTable& table);
 
 /// The rig's motion, and the frame it is told in. @param duration  of the recording [s]
 void read_trajectory(const TomlTable& table, double duration, Scenario& scenario);
-Orbit orbit_of(const TomlTable& table);
 /// Where a card is: quaternion, position, velocity and rate, an inertia with which it tumbles, or keys.
 Motion card_motion_of(const TomlTable& table, double duration);
 

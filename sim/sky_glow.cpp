@@ -46,12 +46,12 @@ double dark_sky(double zenith, double sine_elevation, double extinction) {
 
 double moonlit_sky(double cos_apart, double sine_elevation, double sine_moon, double phase_angle,
                    double extinction) {
+  constexpr double kMoonRadius = 0.26;  // [degrees]
   if (sine_moon <= 0) return 0;
-  const double apart = std::max(10.0, std::acos(std::clamp(cos_apart, -1.0, 1.0)) / kDegree);
-  const double cosine = std::cos(apart * kDegree);
-  // Rayleigh's and Mie's scattering; nearer than ten degrees the paper's function does not hold.
-  const double scattered =
-      std::pow(10.0, 5.36) * (1.06 + cosine * cosine) + std::pow(10.0, 6.15 - apart / 40);
+  const double apart = std::max(kMoonRadius, std::acos(std::clamp(cos_apart, -1.0, 1.0)) / kDegree);
+  // Rayleigh's and Mie's scattering; the latter has a second form near the Moon (equations 18, 19 and 21).
+  const double mie = std::max(std::pow(10.0, 6.15 - apart / 40), 6.2e7 / (apart * apart));
+  const double scattered = std::pow(10.0, 5.36) * (1.06 + cos_apart * cos_apart) + mie;
   const double phase = std::abs(phase_angle) / kDegree;
   const double moon = std::pow(10.0, -0.4 * (3.84 + 0.026 * phase + 4e-9 * std::pow(phase, 4)));
   const double nanolamberts = scattered * moon *

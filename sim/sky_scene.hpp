@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "components/catalogue/orbit.hpp"
 #include "components/catalogue/solar_system.hpp"
 #include "sim/earth_view.hpp"
-#include "sim/orbit.hpp"
 
 namespace omma::sim {
 

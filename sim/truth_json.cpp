@@ -157,6 +157,17 @@ void add_surroundings(const Scenario& scenario, const SceneInstant& scene, doubl
     line["earth"] = {{"direction_rig", xyz(scene.rig_from_j2000 * -observer.position / distance)},
                      {"radius_rad", std::asin(kEarthRadius / distance)}};
   }
+  if (scenario.gimbal) {
+    const GimbalAngles angles = scenario.gimbal->at(time);
+    Json gimbal = Json::array();
+    for (std::size_t p = 0; p < scenario.gimbal->parts().size(); ++p) {
+      gimbal.push_back({{"axis", std::string(scenario.gimbal->parts()[p].motion.axis.name.view())},
+                        {"commanded_rad", angles.commanded[p]},
+                        {"real_rad", angles.real[p]},
+                        {"tilt_rad", angles.tilt[p]}});
+    }
+    line["gimbal"] = gimbal;
+  }
   if (scenario.ground) line["up_rig"] = xyz(scene.up_rig);
   if (sky.sun) line["sun_rig"] = xyz(scene.rig_from_j2000 * sky.sun->direction);
   if (sky.moon) line["moon_rig"] = xyz(scene.rig_from_j2000 * sky.moon->direction);

@@ -50,7 +50,9 @@ ApparentPlace::ApparentPlace(const Observer& observer) noexcept {
   const double utc = *observer.julian_date_utc;
   const double t = julian_centuries(utc + kTerrestrialMinusUtc);
   years_ = 100 * t;
-  velocity_over_c_ = earth_velocity_over_c(t) + observer.velocity / kSpeedOfLight;
+  const Eigen::Vector3d earth_over_c = earth_velocity_over_c(t);
+  own_over_c_ = observer.velocity / kSpeedOfLight;
+  velocity_over_c_ = earth_over_c + own_over_c_;
   if (!observer.site) return;
 
   const GroundSite& site = *observer.site;
@@ -60,7 +62,8 @@ ApparentPlace::ApparentPlace(const Observer& observer) noexcept {
   zenith_ = j2000_from_date *
             Eigen::Vector3d(c * std::cos(sidereal), c * std::sin(sidereal), std::sin(site.latitude));
   const Eigen::Vector3d east = j2000_from_date * Eigen::Vector3d(-std::sin(sidereal), std::cos(sidereal), 0);
-  velocity_over_c_ += east * (465.1 * c / kSpeedOfLight);  // turning of the Earth at the equator: 465.1 m/s
+  own_over_c_ += east * (465.1 * c / kSpeedOfLight);  // turning of the Earth at the equator: 465.1 m/s
+  velocity_over_c_ = earth_over_c + own_over_c_;
   position_ = site_position(site, zenith_, j2000_from_date.col(2));
   refracts_ = true;
   temperature_ = site.temperature.value_or(standard_temperature(site.height));
@@ -80,8 +83,16 @@ bool ApparentPlace::direction(const CatalogueStar& star, Eigen::Vector3d& direct
 bool ApparentPlace::observe(Eigen::Vector3d& direction) const noexcept {
   // Aberration to first order, whose neglected part is below 0.001".
   direction = (direction + velocity_over_c_).normalized();
-  if (!refracts_) return true;
+  return refracted(direction);
+}
 
+bool ApparentPlace::observe_from_centre(Eigen::Vector3d& direction) const noexcept {
+  direction = (direction + own_over_c_).normalized();
+  return refracted(direction);
+}
+
+bool ApparentPlace::refracted(Eigen::Vector3d& direction) const noexcept {
+  if (!refracts_) return true;
   const double sine = std::clamp(direction.dot(zenith_), -1.0, 1.0);
   const double altitude = std::asin(sine);
   if (altitude < -1.0 * kDegree) return false;

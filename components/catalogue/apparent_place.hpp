@@ -36,14 +36,21 @@ class ApparentPlace {
   /// @return false below the horizon of the ground site, as above
   bool observe(Eigen::Vector3d& direction) const noexcept;
 
+  /// The same for a direction that is seen so from the centre of the Earth: what the observer's own velocity
+  /// and, from the ground, refraction add to it.
+  bool observe_from_centre(Eigen::Vector3d& direction) const noexcept;
+
   /// Of the ground site from the centre of the Earth, J2000 axes [m]; zero without one.
   const Eigen::Vector3d& position() const { return position_; }
   /// Local vertical in J2000 axes; meaningful with a ground site only.
   const Eigen::Vector3d& zenith() const { return zenith_; }
 
  private:
+  bool refracted(Eigen::Vector3d& direction) const noexcept;
+
   double years_ = 0;  // since J2000.0
   Eigen::Vector3d velocity_over_c_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d own_over_c_ = Eigen::Vector3d::Zero();  // its part about the centre of the Earth
   Eigen::Vector3d position_ = Eigen::Vector3d::Zero();
   bool refracts_ = false;
   Eigen::Vector3d zenith_ = Eigen::Vector3d::UnitZ();

@@ -7,12 +7,15 @@
 namespace omma {
 namespace {
 
-bool at_a_star(const LeftoverDot& dot, const StarCatalogue& catalogue, double gate_chi2) noexcept {
+bool at_a_star(const LeftoverDot& dot, const StarCatalogue& catalogue,
+               const std::optional<ApparentPlace>& from_here, double gate_chi2) noexcept {
+  constexpr double kLifted = 0.012;  // 40': as far as the air lifts a star
   // A long dot's larger axis: its mean is the root mean square of both.
-  const double radius = std::sqrt(2 * gate_chi2) * dot.sigma;
+  const double radius = std::sqrt(2 * gate_chi2) * dot.sigma + (from_here ? kLifted : 0);
   bool found = false;
   catalogue.near(dot.direction, radius, [&](std::uint16_t s) {
-    const Eigen::Vector3d& star = catalogue.stars()[s].direction;
+    Eigen::Vector3d star = catalogue.stars()[s].direction;
+    if (from_here && !from_here->observe_from_centre(star)) return;
     found = found || (star.dot(dot.direction) > 0 && (dot.whitener * star).squaredNorm() < gate_chi2);
   });
   return found;
@@ -63,7 +66,7 @@ std::span<const LeftoverDot> LeftoverDots::find(const DotLists& dots, const Pair
       dot.snr = seen.snr;
       dot.camera = camera;
       dot.dot = index;
-      if (!at_a_star(dot, catalogue, gate_chi2)) found_.push_back(dot);
+      if (!at_a_star(dot, catalogue, pairings.sky.from_here, gate_chi2)) found_.push_back(dot);
     }
   }
   return found_;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "components/catalogue/apparent_place.hpp"
 #include "components/estimation/sight.hpp"
 #include "components/geometry/pose.hpp"
 #include "config/limits.hpp"
@@ -27,6 +29,9 @@ struct SkyPairings {
   TrackState state = TrackState::kLost;
   Eigen::Quaterniond rig_from_j2000 =
       Eigen::Quaterniond::Identity();  ///< predicted or acquired: where the solver starts
+  /// What the observer's own place adds to directions seen from the centre of the Earth; none: it is not
+  /// known.
+  std::optional<ApparentPlace> from_here;
   StaticVector<Pairing, limits::kStarPairs> pairs;
   /// Dots of Sun, Moon and planets; not for the attitude (discs have phases). Several dots may be of one
   /// disc.

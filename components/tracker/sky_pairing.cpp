@@ -13,7 +13,9 @@ void SkyPairing::predict(const CameraPrediction& prediction, std::span<const Sky
     const SkyStar& star = stars[i];
     if (star.magnitude > magnitude_limit) break;
     PredictedPoint point;
-    if (!prediction.in_field(star.direction) || !prediction.point(star.direction, 0, point)) continue;
+    if (!prediction.in_field(star.direction)) continue;
+    Eigen::Vector3d direction;
+    if (!seen(star, direction) || !prediction.point(direction, 0, point)) continue;
     point.entry = static_cast<std::uint16_t>(i);
     point.weight = std::pow(10.0F, -0.4F * star.magnitude);
     if (!points_.push_back(point)) break;
@@ -49,7 +51,9 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
     for (std::size_t i = 0; i < count; ++i) {
       const Found& found = found_[c][i];
       Pairing pairing;
-      pairing.sight = SeenDots::sight(*dots.ray(c, found.dot), stars[found.star].direction);
+      Eigen::Vector3d direction;
+      if (!seen(stars[found.star], direction)) continue;
+      pairing.sight = SeenDots::sight(*dots.ray(c, found.dot), direction);
       pairing.camera = static_cast<std::uint8_t>(c);
       pairing.dot = found.dot;
       pairing.entry = stars[found.star].hr;
@@ -57,6 +61,12 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
       dots.claimed(c)[found.dot] = 1;
     }
   }
+}
+
+// False below the horizon.
+bool SkyPairing::seen(const SkyStar& star, Eigen::Vector3d& direction) const noexcept {
+  direction = star.direction;
+  return here_ == nullptr || here_->observe_from_centre(direction);
 }
 
 // The largest number of pairs of any camera with which all fit into `room`.

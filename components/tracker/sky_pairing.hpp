@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "components/catalogue/apparent_place.hpp"
 #include "components/catalogue/star.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/tracker/assignment.hpp"
@@ -21,10 +22,15 @@ class SkyPairing {
   /// Sun, Moon and planets to look for among the stars; as SolarPairing::look_for.
   void look_for(std::span<const SolarBodyPlace> places) noexcept { solar_.look_for(places); }
 
+  /// From where: what is added to the directions of the stars. @param here  nullptr: nothing; else outlives
+  /// this
+  void look_from(const ApparentPlace* here) noexcept { here_ = here; }
+
   /// Appends the pairs of all cameras to `out`, camera by camera, and marks their dots as claimed. Of each
   /// image the brightest Assigner::kPredictions stars are looked for. Where the cameras have more pairs than
   /// `out` has room for, each gets the same share of it, its brightest stars.
-  /// @param stars  apparent places, brightest first; those fainter than `magnitude_limit` are not used
+  /// @param stars  seen from the centre of the Earth, brightest first; those fainter than `magnitude_limit`
+  /// are not used
   void pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> stars,
             const PredictedAttitude& prediction, float magnitude_limit, const AssignmentGate& gate,
             std::span<const HiddenCone> hidden, StaticVector<Pairing, limits::kStarPairs>& out) noexcept;
@@ -38,6 +44,7 @@ class SkyPairing {
  private:
   void predict(const CameraPrediction& prediction, std::span<const SkyStar> stars,
                float magnitude_limit) noexcept;
+  bool seen(const SkyStar& star, Eigen::Vector3d& direction) const noexcept;
   std::size_t share_of_each(std::size_t cameras, std::size_t room) const noexcept;
 
   struct Found {
@@ -49,6 +56,7 @@ class SkyPairing {
   std::array<StaticVector<Found, limits::kDotsPerCamera>, limits::kCameras> found_;
   Assigner assigner_;
   SolarPairing solar_;
+  const ApparentPlace* here_ = nullptr;
   double chance_ = 0;
 };
 

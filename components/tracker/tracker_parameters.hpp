@@ -1,7 +1,10 @@
 // What can be chosen about tracking.
 #pragma once
 
+#include <optional>
+
 #include "components/catalogue/observer.hpp"
+#include "components/catalogue/orbit.hpp"
 #include "components/catalogue/solar_system.hpp"
 #include "components/tracker/assignment.hpp"
 
@@ -17,6 +20,7 @@ struct TrackerParameters {
   int least_star_pairs = 5;    ///< fewer beyond chance while tracking: the sky is lost and searched again
   int least_target_pairs = 4;  ///< fewer beyond chance while tracking: the body is lost and searched again
   Observer observer;           ///< at the first frame set; without an epoch no planets are looked for
+  std::optional<Orbit> orbit;  ///< of the observer, where it is known; needs the epoch, at which it is told
   double observer_sigma = kUnknownOrbit;  ///< of the observer's position, each axis [m]
   int patience = 3;                       ///< frame sets a prediction is trusted without a new estimate
 };

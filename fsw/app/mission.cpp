@@ -6,6 +6,7 @@
 
 #include "components/camera/camera_setup_table.hpp"
 #include "components/catalogue/observer.hpp"
+#include "components/catalogue/observer_table.hpp"
 #include "components/catalogue/target_file.hpp"
 #include "components/estimation/calibration_error_file.hpp"
 #include "components/extractor/extractor_tuning.hpp"
@@ -139,6 +140,22 @@ LookoutParameters read_lookout(const TomlTable& table) {
   return p;
 }
 
+// Where the rig is: aberration by its own speed, refraction, parallax.
+void read_observer(const TomlTable& table, bool has_epoch, TrackerParameters& tracker) {
+  const auto orbit = table.table_if("orbit");
+  if (orbit.has_value() == table.has("site"))
+    throw table.error("site", "a site on the ground or an [observer.orbit]", orbit ? "both" : "neither");
+  if (!has_epoch)
+    throw table.error("site", "an epoch, at which the Earth's turn or the orbit is known", "none");
+  if (orbit) {
+    tracker.orbit = orbit_of(*orbit);
+  } else {
+    tracker.observer.site = ground_site_of(table);
+  }
+  tracker.observer_sigma = table.number("sigma_m", {0, 1e9}, 1000);
+  table.refuse_unknown_keys();
+}
+
 SurveillanceParameters read_surveillance(const TomlTable& table) {
   constexpr double kDegree = std::numbers::pi / 180;
   SurveillanceParameters p;
@@ -224,6 +241,8 @@ Mission read_mission(const std::filesystem::path& file) {
   if (const auto lookout = root.table_if("lookout")) mission.lookout = read_lookout(*lookout);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   mission.tracker.observer.julian_date_utc = epoch;
+  if (const auto observer = root.table_if("observer"))
+    read_observer(*observer, epoch.has_value(), mission.tracker);
   if (const auto surveillance = root.table_if("surveillance"))
     mission.surveillance = read_surveillance(*surveillance);
   if (const auto attitude = root.table_if("attitude"))

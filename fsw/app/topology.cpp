@@ -18,7 +18,9 @@ StarCatalogue star_catalogue(const Mission& mission) {
   double finest = 1;
   for (const RigCamera& camera : mission.rig.cameras) finest = std::min(finest, camera.lens.pixel_angle());
   // Two stars within two pixels of the finest camera are one dot.
-  return {mission.tracker.observer, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
+  Observer from_centre;  // of the Earth: the tracker adds what the observer's own place does
+  from_centre.julian_date_utc = mission.tracker.observer.julian_date_utc;
+  return {from_centre, {.magnitude_limit = 6.5F, .resolution = 2 * finest}};
 }
 
 std::uint32_t beats_per_second(double rate_hz) {

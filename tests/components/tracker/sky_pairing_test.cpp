@@ -67,6 +67,26 @@ TEST_F(PairsOfTheSky, ClaimTheirDots) {
   EXPECT_EQ(claimed, pairs_->size());
 }
 
+TEST_F(PairsOfTheSky, CarryTheDirectionsInWhichTheGroundSeesThem) {
+  Observer observer;
+  observer.julian_date_utc = parse_utc("2026-01-03T04:00:00Z");
+  observer.site = GroundSite{0.63, -1.694, 290, {}, {}};
+  const ApparentPlace here(observer);
+  pairing_->look_from(&here);
+  pair(4.5F, 1e-3);  // the dots are where the centre of the Earth sees them: refraction is some minutes
+  ASSERT_GT(pairs_->size(), 20U);
+  for (const Pairing& p : *pairs_) {
+    EXPECT_GT(p.sight.point.dot(here.zenith()), std::sin(-1.1 * M_PI / 180))
+        << p.entry;  // none below the horizon
+    for (const SkyStar& star : catalogue_->stars()) {
+      if (star.hr != p.entry) continue;
+      Eigen::Vector3d seen = star.direction;
+      ASSERT_TRUE(here.observe_from_centre(seen));
+      EXPECT_LT((seen - p.sight.point).norm(), 1e-12);
+    }
+  }
+}
+
 TEST_F(PairsOfTheSky, AreNotLookedForBehindABody) {
   HiddenCone cone;
   cone.camera = 1;

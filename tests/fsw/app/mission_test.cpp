@@ -161,6 +161,26 @@ TEST_F(MissionFile, MistakesInItsTriggerAreNamed) {
   EXPECT_THAT(refusal("width_ms", "witdh_ms"), HasSubstr("unknown key"));
 }
 
+TEST_F(MissionFile, MaySayWhereTheRigIs) {
+  replace("demo.toml", "[tracker]", "[observer]\nsite = \"36.1,-97.1,290\"\n\n[tracker]");
+  const Mission grounded = read_mission(file());
+  ASSERT_TRUE(grounded.tracker.observer.site);
+  EXPECT_NEAR(*grounded.tracker.observer.site->pressure, 979, 1);  // of a standard atmosphere
+  replace("demo.toml", "site = \"36.1,-97.1,290\"",
+          "[observer.orbit]\nsemi_major_axis_km = 6878\ninclination_deg = 97\nascending_node_deg = 40");
+  EXPECT_TRUE(read_mission(file()).tracker.orbit);
+}
+
+TEST_F(MissionFile, WithAPlaceThatCannotBeIsRefused) {
+  replace("demo.toml", "[tracker]", "[observer]\nsite = \"here\"\n\n[tracker]");
+  EXPECT_THAT(message(), HasSubstr("observer.site: expected \"LAT,LON,HEIGHT\""));
+  replace("demo.toml", "site = \"here\"", "sigma_m = 5");
+  EXPECT_THAT(message(), HasSubstr("observer.site: expected a site on the ground or an [observer.orbit]"));
+  replace("demo.toml", "sigma_m = 5", "site = \"36,-97,290\"");
+  replace("demo.toml", "epoch = \"2026", "# epoch = \"2026");
+  EXPECT_THAT(message(), HasSubstr("observer.site: expected an epoch"));
+}
+
 TEST_F(MissionFile, WithAFilterThatDoesNotExistIsRefused) {
   replace("demo.toml", "[imaging]", "[attitude]\nfilter = \"ekf\"\n\n[imaging]");
   EXPECT_THAT(message(), HasSubstr("filter: expected \"none\" or \"mekf\", found ekf"));

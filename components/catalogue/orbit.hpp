@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace omma::sim {
+namespace omma {
 
 inline constexpr double kEarthRadius = 6378137.0;        ///< equatorial, WGS 84 [m]
 inline constexpr double kEarthPolarRadius = 6356752.3;   ///< [m]
@@ -54,4 +54,4 @@ Eigen::Quaterniond orbit_axes(const OrbitState& state);
 /// Turn of those axes against J2000, in those axes [rad/s]; the node's drift is left out.
 Eigen::Vector3d orbit_axes_rate(const OrbitState& state);
 
-}  // namespace omma::sim
+}  // namespace omma

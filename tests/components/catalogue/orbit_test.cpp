@@ -1,11 +1,11 @@
 // Orbits: Kepler's laws, the drift that a flat Earth makes, and elements there and back.
-#include "sim/orbit.hpp"
+#include "components/catalogue/orbit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace omma::sim {
+namespace omma {
 namespace {
 
 constexpr double kDegree = M_PI / 180;
@@ -94,4 +94,4 @@ TEST(OrbitAxes, PointDownAndForwardAndTurnWithTheOrbit) {
 }
 
 }  // namespace
-}  // namespace omma::sim
+}  // namespace omma

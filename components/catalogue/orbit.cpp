@@ -1,9 +1,9 @@
-#include "sim/orbit.hpp"
+#include "components/catalogue/orbit.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace omma::sim {
+namespace omma {
 namespace {
 
 /// E of M = E − e sin E, by Newton's method from a start that always converges (Vallado, algorithm 2).
@@ -101,4 +101,4 @@ Eigen::Vector3d orbit_axes_rate(const OrbitState& state) {
   return {0, -state.position.cross(state.velocity).norm() / state.position.squaredNorm(), 0};
 }
 
-}  // namespace omma::sim
+}  // namespace omma

@@ -327,7 +327,7 @@ TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
   EXPECT_EQ(dictionary.at("topics").size(), telemetry::kTopicCount);
   EXPECT_EQ(dictionary.at("topics").at(2).at("name"), "omma/cubesat-1/attitude");
   EXPECT_EQ(dictionary.at("events").size(), kEvents.size());
-  EXPECT_EQ(dictionary.at("rate_groups").at(0).at("components").size(), 16U);
+  EXPECT_EQ(dictionary.at("rate_groups").at(0).at("components").size(), 17U);
   EXPECT_THAT(dictionary.at("idl").get<std::string>(), HasSubstr("struct Attitude"));
 }
 
@@ -417,7 +417,7 @@ TEST_F(MissionFile, WithAFrameRateTheScheduleCannotHoldIsRefusedInRealTime) {
   std::ostringstream said;
   said << std::ifstream(folder_ / "said").rdbuf();
   EXPECT_THAT(said.str(),
-              HasSubstr("the schedule does not hold: rate group 'vision' has budgets of 45.200 ms in "
+              HasSubstr("the schedule does not hold: rate group 'vision' has budgets of 45.700 ms in "
                         "a period of 20.000 ms"));
 }
 

@@ -4,6 +4,18 @@
 #include <cmath>
 
 namespace omma {
+namespace {
+
+// A dot so many times brighter than the image's other pairs let expect is not its star's: something passes
+// before it. Red stars are up to four times brighter to silicon than their V says.
+constexpr float kTooBright = 5;
+constexpr std::size_t kEnoughPairs = 12;  // to know what is to be expected
+
+float light_of(const SkyStar& star) {
+  return std::pow(10.0F, -0.4F * star.magnitude);
+}
+
+}  // namespace
 
 void SkyPairing::predict(const CameraPrediction& prediction, std::span<const SkyStar> stars,
                          float magnitude_limit) noexcept {
@@ -17,7 +29,7 @@ void SkyPairing::predict(const CameraPrediction& prediction, std::span<const Sky
     Eigen::Vector3d direction;
     if (!seen(star, direction) || !prediction.point(direction, 0, point)) continue;
     point.entry = static_cast<std::uint16_t>(i);
-    point.weight = std::pow(10.0F, -0.4F * star.magnitude);
+    point.weight = light_of(star);
     if (!points_.push_back(point)) break;
   }
 }
@@ -44,6 +56,7 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
         found_[c].push_back({entry, a.dot});
       }
     }
+    drop_too_bright(stars, dots.list(c), found_[c]);
   }
   const std::size_t share = share_of_each(dots.cameras(), out.capacity() - out.size());
   for (std::size_t c = 0; c < dots.cameras(); ++c) {
@@ -67,6 +80,21 @@ void SkyPairing::pair(SeenDots& dots, const Rig& rig, std::span<const SkyStar> s
 bool SkyPairing::seen(const SkyStar& star, Eigen::Vector3d& direction) const noexcept {
   direction = star.direction;
   return here_ == nullptr || here_->observe_from_centre(direction);
+}
+
+void SkyPairing::drop_too_bright(std::span<const SkyStar> stars, const DotList& list,
+                                 FoundStars& found) noexcept {
+  if (found.size() < kEnoughPairs) return;
+  const auto ratio = [&](const Found& pair) { return list.dots[pair.dot].flux / light_of(stars[pair.star]); };
+  per_star_light_.clear();
+  for (const Found& pair : found) per_star_light_.push_back(ratio(pair));
+  float* middle = per_star_light_.begin() + per_star_light_.size() / 2;
+  std::nth_element(per_star_light_.begin(), middle, per_star_light_.end());
+  const float most = kTooBright * *middle;
+  std::size_t kept = 0;
+  for (const Found& pair : found)
+    if (ratio(pair) <= most) found[kept++] = pair;
+  found.resize(kept);
 }
 
 // The largest number of pairs of any camera with which all fit into `room`.

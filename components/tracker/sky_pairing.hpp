@@ -42,18 +42,22 @@ class SkyPairing {
   double chance() const { return chance_; }
 
  private:
-  void predict(const CameraPrediction& prediction, std::span<const SkyStar> stars,
-               float magnitude_limit) noexcept;
-  bool seen(const SkyStar& star, Eigen::Vector3d& direction) const noexcept;
-  std::size_t share_of_each(std::size_t cameras, std::size_t room) const noexcept;
-
   struct Found {
     std::uint16_t star;  // index in the catalogue, brightest first
     std::uint16_t dot;
   };
+  using FoundStars = StaticVector<Found, limits::kDotsPerCamera>;
+
+  void predict(const CameraPrediction& prediction, std::span<const SkyStar> stars,
+               float magnitude_limit) noexcept;
+  bool seen(const SkyStar& star, Eigen::Vector3d& direction) const noexcept;
+  void drop_too_bright(std::span<const SkyStar> stars, const DotList& list, FoundStars& found) noexcept;
+  std::size_t share_of_each(std::size_t cameras, std::size_t room) const noexcept;
 
   StaticVector<PredictedPoint, Assigner::kPredictions> points_;
-  std::array<StaticVector<Found, limits::kDotsPerCamera>, limits::kCameras> found_;
+  std::array<FoundStars, limits::kCameras> found_;
+  // Grey levels of each pair's dot a unit of its star's light.
+  StaticVector<float, limits::kDotsPerCamera> per_star_light_;
   Assigner assigner_;
   SolarPairing solar_;
   const ApparentPlace* here_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "tests/bench/sky_problem.hpp"
@@ -17,6 +18,9 @@ class PairsOfTheSky : public ::testing::Test {
   void pair(float magnitude_limit, double sigma, std::span<const HiddenCone> hidden = {}) {
     sky_ = std::make_unique<SeenSky>(rig_, *catalogue_, magnitude_limit, 0.1);
     sky_->see(truth_, *lists_);
+    for (std::size_t c = 0; c < lists_->cameras.size(); ++c)
+      for (std::size_t d = 0; d < lists_->cameras[c].dots.size(); ++d)
+        if (sky_->hr(c, d) == brightened_) lists_->cameras[c].dots[d].flux *= brighter_;
     seen_->build(*lists_, rig_, 0.05);
     const PredictedAttitude prediction{(rotation_exp({sigma, -sigma, sigma}) * truth_).normalized(),
                                        sigma * sigma * Eigen::Matrix3d::Identity()};
@@ -34,6 +38,13 @@ class PairsOfTheSky : public ::testing::Test {
     return sum;
   }
 
+  std::size_t pairs_of(int hr) const {
+    return static_cast<std::size_t>(
+        std::count_if(pairs_->begin(), pairs_->end(), [hr](const Pairing& p) { return p.entry == hr; }));
+  }
+
+  int brightened_ = -1;  // star by HR number whose dots are ...
+  float brighter_ = 1;   // ... so many times brighter
   Rig rig_ = equidistant_rig(3, 122);
   std::unique_ptr<StarCatalogue> catalogue_ =
       std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, 0.004});
@@ -56,6 +67,21 @@ TEST_F(PairsOfTheSky, AreFewerButRightWithAPoorPrediction) {
   pair(4.5F, 5e-3);  // 2.4 px
   EXPECT_EQ(wrong(), 0);
   EXPECT_GT(pairs_->size(), dots() / 2);
+}
+
+TEST_F(PairsOfTheSky, AreNotMadeWithDotsMuchTooBrightForTheirStar) {
+  pair(4.5F, 1e-4);
+  const int star = (*pairs_)[pairs_->size() / 2].entry;
+  const std::size_t all = pairs_->size();
+  const std::size_t of_star = pairs_of(star);
+  brightened_ = star;
+  brighter_ = 3;  // red, or varying
+  pair(4.5F, 1e-4);
+  EXPECT_EQ(pairs_of(star), of_star);
+  brighter_ = 10;  // something passes before it
+  pair(4.5F, 1e-4);
+  EXPECT_EQ(pairs_of(star), 0U);
+  EXPECT_EQ(pairs_->size(), all - of_star);
 }
 
 TEST_F(PairsOfTheSky, ClaimTheirDots) {

@@ -1,6 +1,7 @@
 #include "components/imaging/imaging.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -53,7 +54,22 @@ void Imaging::skipped(const Tick& /*tick*/) noexcept {
   chunk->rows = 0;
 }
 
-CommandOutcome Imaging::receive(const Command& /*command*/, const Tick& /*tick*/) noexcept {
+// The field is judged here, while the sender can still be told; 0 stands for the mission's.
+CommandOutcome Imaging::receive_request(const Command& command) noexcept {
+  constexpr double kDegree = std::numbers::pi / 180;
+  constexpr double kWidestView = 0.99 * 180;  // of a pinhole [deg]
+  PictureRequest wanted;
+  wanted.kind = static_cast<ImageKind>(static_cast<int>(command.arguments[0]));
+  wanted.pan = kDegree * command.arguments[1];
+  wanted.tilt = kDegree * command.arguments[2];
+  wanted.field = kDegree * command.arguments[3];
+  if (wanted.kind == ImageKind::kView && command.arguments[3] > kWidestView)
+    return CommandOutcome::refused(CommandReason::kArgumentRange, 3);
+  return request(wanted) ? CommandOutcome::done() : CommandOutcome::refused(CommandReason::kBusy);
+}
+
+CommandOutcome Imaging::receive(const Command& command, const Tick& /*tick*/) noexcept {
+  if (command.opcode == kRequestPicture.id) return receive_request(command);
   between_ = true;
   asked_ = false;
   frame_sets_ = parameters_.period;

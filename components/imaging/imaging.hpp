@@ -28,7 +28,19 @@ inline constexpr CommandDescriptor kStartPicture{.id = 20,
                                                  .text = "leaves the picture under way and begins a new one",
                                                  .modes = modes(Mode::kAcquire, Mode::kTrack)};
 
-inline constexpr std::array kImagingCommands{kStartPicture};
+inline constexpr CommandDescriptor kRequestPicture{
+    .id = 22,
+    .name = "request_picture",
+    .text = "a picture of its own, made once after the one under way: a view looks where it is told",
+    .arguments = {{{.name = "kind",
+                    .type = ValueType::kChoice,
+                    .choices = "panorama_j2000|panorama_rig|view|fisheye_j2000|fisheye_rig"},
+                   {.name = "pan", .unit = "deg", .least = -360, .most = 360},
+                   {.name = "tilt", .unit = "deg", .least = -90, .most = 90},
+                   {.name = "field", .unit = "deg", .least = 0, .most = 360}}},
+    .modes = modes(Mode::kAcquire, Mode::kTrack)};
+
+inline constexpr std::array kImagingCommands{kStartPicture, kRequestPicture};
 
 struct ImagingParameters : PictureSettings {
   ImageComposite composite = ImageComposite::kSingle;
@@ -83,8 +95,9 @@ class Imaging final : public Component, public CommandReceiver {
   void skipped(const Tick& tick) noexcept override;
   CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
-  /// From one other thread, any time: false where four requests wait already. One that cannot be made (a row
-  /// longer than a chunk, a field too wide) is passed over and counted.
+  /// From one thread, any time (that of the commands, where they are taken): false where four requests wait
+  /// already. One that cannot be made (a row longer than a chunk, a field too wide) is passed over and
+  /// counted.
   bool request(const PictureRequest& picture) noexcept { return requests_.push(picture); }
   std::uint32_t refused_requests() const noexcept { return refused_; }
 
@@ -94,6 +107,7 @@ class Imaging final : public Component, public CommandReceiver {
   void collect_images() noexcept;
   void start_picture() noexcept;
   bool take_request() noexcept;
+  CommandOutcome receive_request(const Command& command) noexcept;
   int make_rows(int first_row, int rows) noexcept;
   void compose() noexcept;
   void pack(int rows) noexcept;

@@ -11,6 +11,15 @@ To same(From value) noexcept {
   return static_cast<To>(value);
 }
 
+/// Where the IDL has one value more in front.
+template <class To, class From>
+To after_first(From value) noexcept {
+  return static_cast<To>(static_cast<int>(value) + 1);
+}
+
+static_assert(omma_EXPOSURE_GOOD == static_cast<int>(ExposureState::kGood) + 1);
+static_assert(omma_EXPOSURE_WAITING == static_cast<int>(ExposureState::kWaiting) + 1);
+static_assert(omma_EXPOSURE_AT_LIMIT == static_cast<int>(ExposureState::kAtLimit) + 1);
 static_assert(omma_FRAME_MISSING == static_cast<int>(FrameStatus::kMissing));
 static_assert(omma_FRAME_FRESH == static_cast<int>(FrameStatus::kFresh));
 static_assert(omma_FRAME_LATE == static_cast<int>(FrameStatus::kLate));

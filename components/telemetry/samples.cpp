@@ -104,6 +104,25 @@ void fill(const Frames& frames, const DotLists& dots, const Pairings& pairings, 
     status.targets_paired = target_count(pairings, c);
     status.background_levels = list.background;
     status.noise_levels = list.noise;
+    const CameraSettings taken_with = has_frame ? frames.cameras[c].settings : CameraSettings{};
+    status.exposure_ms = 1e-6F * static_cast<float>(taken_with.exposure_ns);
+    status.gain = taken_with.gain;
+    status.black_level_levels = taken_with.black_level;
+    status.exposure_state = omma_EXPOSURE_FIXED;
+    status.full_share = 0;
+    status.exposures_refused = 0;
+  }
+}
+
+void fill(const ExposureReport& report, omma_FrameSet& out) noexcept {
+  const std::size_t count = std::min<std::size_t>(out.cameras._length, report.cameras.size());
+  for (std::size_t c = 0; c < count; ++c) {
+    const CameraExposure& camera = report.cameras[c];
+    omma_CameraStatus& status = out.cameras._buffer[c];
+    status.exposures_refused = camera.refused;
+    if (!camera.automatic) continue;
+    status.exposure_state = after_first<omma_ExposureState>(camera.state);
+    status.full_share = static_cast<float>(camera.seen.full);
   }
 }
 

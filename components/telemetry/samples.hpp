@@ -9,6 +9,7 @@
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
+#include "components/exposure/exposure_report.hpp"
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
 #include "components/motion/motion_report.hpp"
@@ -35,6 +36,9 @@ void set_text(char (&out)[kSize], std::string_view text) noexcept {
 
 /// @param out  `cameras` holds room for as many cameras as the rig has; their names are left as they are
 void fill(const Frames& frames, const DotLists& dots, const Pairings& pairings, omma_FrameSet& out) noexcept;
+
+/// What automatic exposure did, into the cameras of a frame set that is filled.
+void fill(const ExposureReport& report, omma_FrameSet& out) noexcept;
 
 /// No dot is claimed yet: see `claim`.
 /// @param out  `dots` holds room for limits::kDotsPerCamera

@@ -25,6 +25,7 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("health", health);
   visitor.input("timing", timing);
   visitor.input("utc", utc);
+  if (exposure.source() != nullptr) visitor.input("exposure", exposure);
   if (motion.source() != nullptr) visitor.input("motion", motion);
   if (commands.source() != nullptr) visitor.input("commands", commands);
   if (acks.source() != nullptr) visitor.input("acks", acks);
@@ -71,6 +72,7 @@ void Telemetry::add(Report& report, Sample& sample, std::uint32_t& number) noexc
 
 void Telemetry::add_frame_set(Report& report) noexcept {
   telemetry::fill(*frames, *dots, *pairings, report.frame_set);
+  if (exposure.source() != nullptr) telemetry::fill(*exposure, report.frame_set);
   add(report, report.frame_set, numbers_[static_cast<std::size_t>(TopicId::kFrameSet)]);
 }
 

@@ -25,6 +25,7 @@
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
+#include "components/exposure/exposure_report.hpp"
 #include "components/extractor/dot_lists.hpp"
 #include "components/imaging/image_chunk.hpp"
 #include "components/motion/motion_report.hpp"
@@ -68,6 +69,7 @@ class Telemetry final : public Component {
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;
   In<UtcReport> utc;
+  In<ExposureReport> exposure;  // left unbound where nobody looks at exposure
   In<MotionReport> motion;      // from another rate group; left unbound where nothing moves
   In<CommanderState> commands;  // this and what follows is left unbound where no commands are taken
   InQueue<CommandAck> acks;

@@ -162,6 +162,7 @@ void Topology::connect() {
   mode_keeper.channels.bind(housekeeping.channels);
   commander.mode.bind(mode_keeper.state);
   telemetry.frames.bind(cameras.frames);
+  telemetry.exposure.bind(exposure.report);
   telemetry.dots.bind(extractor.dots);
   telemetry.pairings.bind(tracker.pairings);
   telemetry.attitude.bind(attitude.estimate);

@@ -292,6 +292,34 @@ TEST(Imaging, APictureAskedForIsMadeOnceThenTheMissionsAgain) {
   EXPECT_EQ(bench.imaging.refused_requests(), 1U);
 }
 
+TEST(Imaging, TakesCommandsForAViewAndRefusesWhatAPinholeCannotSee) {
+  Bench bench(small_panorama());
+  bench.take(1, Eigen::Quaterniond::Identity());
+  bench.imaging.step({});
+  Command command;
+  command.opcode = kRequestPicture.id;
+  command.argument_count = 4;
+  command.arguments = {2, 17.2, -11.5, 57.3};  // a view; degrees
+  EXPECT_EQ(bench.imaging.receive(command, {}).state, CommandOutcome::State::kDone);
+  command.arguments[3] = 179;
+  const CommandOutcome wide = bench.imaging.receive(command, {});
+  EXPECT_EQ(wide.state, CommandOutcome::State::kRefused);
+  EXPECT_EQ(wide.reason, CommandReason::kArgumentRange);
+  EXPECT_EQ(wide.argument, 3);
+  whole_picture(bench);
+  const std::vector<std::uint8_t> view = whole_picture(bench);
+  EXPECT_EQ(bench.imaging.chunk->kind, ImageKind::kView);
+  const auto width = std::size_t{bench.imaging.chunk->width};
+  const std::size_t middle = view.size() / 2 + width / 2;
+  const double degree = std::numbers::pi / 180;
+  const Eigen::Vector3d ahead = pan_tilt(17.2 * degree, -11.5 * degree) * Eigen::Vector3d::UnitZ();
+  EXPECT_NEAR(view[middle], companded(smooth_sky(ahead), ViewSettings{}.white), 2);
+  command.arguments[3] = 0;  // the mission's
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(bench.imaging.receive(command, {}).state, CommandOutcome::State::kDone) << k;
+  EXPECT_EQ(bench.imaging.receive(command, {}).reason, CommandReason::kBusy);
+}
+
 TEST(Imaging, APartOfACamerasImageIsItsPixels) {
   ImagingParameters parameters;
   parameters.kind = ImageKind::kCamera;

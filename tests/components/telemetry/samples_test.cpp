@@ -54,6 +54,29 @@ class Samples : public testing::Test {
   std::unique_ptr<Pairings> pairings_;
 };
 
+TEST_F(Samples, FrameSetTellsHowEachImageWasExposed) {
+  Frames frames;
+  frames.cameras.resize(2);
+  frames.cameras[1].settings = {.exposure_ns = 2'500'000, .gain = 4, .black_level = 16};
+  ExposureReport exposure;
+  exposure.cameras.resize(2);
+  exposure.cameras[1].automatic = true;
+  exposure.cameras[1].state = ExposureState::kAtLimit;
+  exposure.cameras[1].seen.full = 0.25;
+  exposure.cameras[1].refused = 3;
+  fill(frames, *lists_, *pairings_, report_->frame_set);
+  EXPECT_EQ(report_->frame_set.cameras._buffer[1].exposure_state, omma_EXPOSURE_FIXED);
+  fill(exposure, report_->frame_set);
+  const omma_CameraStatus& right = report_->frame_set.cameras._buffer[1];
+  EXPECT_FLOAT_EQ(right.exposure_ms, 2.5F);
+  EXPECT_EQ(right.gain, 4);
+  EXPECT_EQ(right.black_level_levels, 16);
+  EXPECT_EQ(right.exposure_state, omma_EXPOSURE_AT_LIMIT);
+  EXPECT_EQ(right.full_share, 0.25F);
+  EXPECT_EQ(right.exposures_refused, 3U);
+  EXPECT_EQ(report_->frame_set.cameras._buffer[0].exposure_state, omma_EXPOSURE_FIXED);
+}
+
 TEST_F(Samples, FrameSetCountsDotsAndPairsPerCamera) {
   Frames frames;
   frames.cameras.resize(2);

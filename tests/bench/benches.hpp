@@ -5,6 +5,7 @@ namespace omma {
 
 int bench_acquire(int argc, char** argv);
 int bench_attitude(int argc, char** argv);
+int bench_axes(int argc, char** argv);
 int bench_blink(int argc, char** argv);
 int bench_blocked(int argc, char** argv);
 int bench_extract(int argc, char** argv);

@@ -17,6 +17,8 @@ constexpr Bench kBenches[] = {
     {"acquire", omma::bench_acquire,
      "cold start, dots to attitude and pose: time, solved, wrong, error over bound, NEES"},
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
+    {"axes", omma::bench_axes,
+     "axes of a swung platform and their shims: error of the whole fit against a circle, NEES"},
     {"blink", omma::bench_blink, "lights told apart by their blinking codes: right, wrong, open, time"},
     {"blocked", omma::bench_blocked, "lateness of rate groups while a telemetry sink blocks for a second"},
     {"extract", omma::bench_extract,

@@ -1,4 +1,5 @@
 // `omma calibrate sky`: lens and orientation from photographs of the stars alone.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -9,11 +10,11 @@
 #include "components/geometry/rig_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/calibrate/calibrate.hpp"
+#include "ground/calibrate/calibrate_flight.hpp"
 #include "ground/calibrate/refine_dots.hpp"
-#include "ground/calibrate/rig_text.hpp"
+#include "ground/calibrate/sky_files.hpp"
 #include "ground/calibrate/sky_report.hpp"
 #include "ground/format.hpp"
-#include "ground/page/page.hpp"
 #include "ground/photographs/photographs.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -32,6 +33,7 @@ struct Arguments {
   std::vector<std::string> epochs;
   std::string site;
   double magnitude = 6.5;
+  int windows = 0;
   std::string output;
   bool json = false;
 };
@@ -119,23 +121,19 @@ std::vector<SkyExposure> dots_of(const Arguments& a, const Exposures& e) {
   return exposures;
 }
 
-void write_results(const Arguments& a, const SkyCalibration& calibration) {
-  make_folder(a.output, "--output");
-  const std::filesystem::path folder = a.output;
-  std::vector<std::string> files;
-  for (const RigCamera& camera : calibration.rig.cameras) {
-    files.push_back(camera.name.c_str() + std::string(a.model == "ocam" ? ".txt" : ".yaml"));
-    write_text_file((folder / files.back()).string(), lens_file_text(camera.lens));
-  }
-  if (!a.rig.empty())
-    write_text_file((folder / "rig.toml").string(),
-                    rig_file_text(calibration.rig, files, "Calibrated on the stars by omma calibrate sky."));
-  write_text_file((folder / "calibration.json").string(), sky_report_json(calibration));
-  write_text_file((folder / "calibration.html").string(), sky_report_page(calibration));
-  std::fprintf(stderr, "lens and page written: %s\n", (folder / "calibration.html").c_str());
+int from_flight(const Arguments& a) {
+  if (!a.lens.empty() || a.fov_deg > 0)
+    throw InputError("arguments", 0, "--rig", "the rig file that was flown, with a flight's log",
+                     a.lens.empty() ? "--fov" : "--lens");
+  return calibrate_flight({a.images, a.rig, a.epochs, a.site,
+                           a.model == "ocam" ? LensModel::kOcam : LensModel::kKannalaBrandt, a.windows,
+                           a.output, a.json});
 }
 
 int calibrate(const Arguments& a) {
+  if (std::any_of(a.images.begin(), a.images.end(),
+                  [](const std::string& file) { return file.ends_with(".mcap"); }))
+    return from_flight(a);
   check(a);
   const Exposures exposures = a.rig.empty() ? single_camera(a) : whole_rig(a);
   SkyCalibrationOptions options;
@@ -149,7 +147,10 @@ int calibrate(const Arguments& a) {
     return 1;
   }
   std::fputs((a.json ? sky_report_json(calibration) : sky_report_text(calibration)).c_str(), stdout);
-  if (!a.output.empty()) write_results(a, calibration);
+  if (a.output.empty()) return 0;
+  write_sky_calibration(calibration, a.output, !a.rig.empty());
+  std::fprintf(stderr, "lens and page written: %s\n",
+               (std::filesystem::path(a.output) / "calibration.html").c_str());
   return 0;
 }
 
@@ -160,8 +161,10 @@ void add_calibrate_sky(CLI::App& calibrate_command, CommandContext& context) {
   CLI::App* command = calibrate_command.add_subcommand(
       "sky", "Lens, orientation and rig from photographs of the stars alone");
   command
-      ->add_option("images", arguments->images,
-                   "IMAGE... of one camera, or CAMERA=IMAGE... with --rig (PNG, JPEG, FITS)")
+      ->add_option(
+          "images", arguments->images,
+          "IMAGE... of one camera, or CAMERA=IMAGE... with --rig (PNG, JPEG, FITS), or logs (MCAP) of "
+          "flights with the --rig that was flown: then drift is told too")
       ->required();
   command
       ->add_option("--fov", arguments->fov_deg,
@@ -176,6 +179,8 @@ void add_calibrate_sky(CLI::App& calibrate_command, CommandContext& context) {
   command->add_option("--site", arguments->site, "LAT,LON,HEIGHT of the ground site: refraction is applied");
   command->add_option("--magnitude", arguments->magnitude, "V of the faintest star paired")
       ->check(CLI::Range(0.0, 8.0));
+  command->add_option("--windows", arguments->windows, "With logs: windows of time of each, for the drift")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--output", arguments->output,
                       "Folder for the lens files, rig.toml, calibration.html and calibration.json");
   command->add_flag("--json", arguments->json, "One JSON object instead of text");

@@ -52,7 +52,7 @@ class Calibrator {
       : guess_(guess), exposures_(exposures), options_(options) {
     for (const RigCamera& camera : guess.cameras)
       shapes_.push_back(nearest_shape(camera.lens, LensModel::kKannalaBrandt, options.max_angle));
-    const double merged = 2 * finest_pixel_angle();
+    const double merged = 2 * finest_pixel_angle(guess);
     for (const SkyExposure& exposure : exposures)
       stars_.emplace_back(exposure.observer, StarCatalogueParameters{options.magnitude_limit, merged});
     for (const CatalogueStar& star : bright_star_catalogue()) magnitude_[star.hr] = star.magnitude;
@@ -61,12 +61,6 @@ class Calibrator {
   SkyCalibration run();
 
  private:
-  // Two stars within two pixels are one dot.
-  double finest_pixel_angle() const {
-    double finest = 1;
-    for (const RigCamera& camera : guess_.cameras) finest = std::min(finest, camera.lens.pixel_angle());
-    return finest;
-  }
   PhotographSolution solve(const Rig& rig, const SkyExposure& exposure) const {
     SolverOptions solver_options;
     solver_options.observer = exposure.observer;

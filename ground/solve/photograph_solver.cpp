@@ -34,13 +34,13 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+}  // namespace
+
 double finest_pixel_angle(const Rig& rig) {
   double finest = std::numeric_limits<double>::infinity();
   for (const RigCamera& camera : rig.cameras) finest = std::min(finest, camera.lens.pixel_angle());
   return finest;
 }
-
-}  // namespace
 
 struct PhotographSolver::Work {
   Work(const Rig& the_rig, const SolverOptions& the_options)

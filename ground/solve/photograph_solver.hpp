@@ -51,6 +51,9 @@ struct PhotographSolution {
   SolveTimes times;
 };
 
+/// Angle of a pixel of the rig's finest camera [rad]: two stars within two of them are one dot.
+double finest_pixel_angle(const Rig& rig);
+
 /// One rig at one epoch; may be used for many sets of images. Holds the catalogue and all tables (megabytes).
 class PhotographSolver {
  public:

@@ -52,7 +52,8 @@ double photons(double temperature, double wavelength) {
 double counted(const SpectralResponse& response, double temperature) {
   double in_response = 0;
   double in_v = 0;
-  for (double wavelength = 250; wavelength <= 1200; wavelength += 2.5) {
+  for (int k = 0; k <= 380; ++k) {
+    const double wavelength = 250 + 2.5 * k;  // to 1200 nm
     const double light = photons(temperature, wavelength);
     in_response += light * efficiency(response, wavelength);
     in_v += light / wavelength * efficiency(v_band(), wavelength);

@@ -53,9 +53,9 @@ Tumbling::State Tumbling::at(double time) const {
 }
 
 Tumbling::State Tumbling::advance(const State& state, double time) const {
-  const double count = std::max(1.0, std::ceil(std::abs(time) / step_));
+  const auto count = std::max(1LL, std::llround(std::ceil(std::abs(time) / step_)));
   State now = state;
-  for (double k = 0; k < count; ++k) now = one_step(now, time / count);
+  for (long long k = 0; k < count; ++k) now = one_step(now, time / static_cast<double>(count));
   return now;
 }
 

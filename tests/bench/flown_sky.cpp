@@ -136,7 +136,7 @@ void FlownSky::gather(std::size_t c, DotList& list) {
     double light = 0;
     Eigen::Vector2d centre = Eigen::Vector2d::Zero();
     for (std::size_t k = i; k < sources_.size(); ++k) {
-      if (taken[k] != 0 || (sources_[k].pixel - first.pixel).norm() > touch) continue;
+      if (taken[k] != 0 || (sources_[k].pixel - first.pixel).norm() > touch + first.extent) continue;
       taken[k] = 1;
       light += sources_[k].electrons;
       centre += sources_[k].electrons * sources_[k].pixel;
@@ -185,9 +185,10 @@ void FlownSky::next(DotLists& lists) {
     }
     for (const SolarBodyPlace& place : places_) {
       const Eigen::Vector3d in_rig = attitude_ * place.direction;
-      if (options_.planets && place.body != SolarBody::kSun)
-        add(c, in_rig, place.magnitude, still(in_rig),
-            {Light::kSolar, static_cast<std::uint16_t>(place.body)});
+      if (options_.planets && place.body != SolarBody::kSun &&
+          add(c, in_rig, place.magnitude, still(in_rig),
+              {Light::kSolar, static_cast<std::uint16_t>(place.body)}))
+        sources_.back().extent = place.radius / rig_.cameras[c].lens.pixel_angle();
     }
     for (std::size_t i = 0; i < runners_.size(); ++i) {
       const Runner& runner = runners_[i];

@@ -68,6 +68,7 @@ class FlownSky {
     Eigen::Vector2d along;
     LightName name;
     bool saturated = false;
+    double extent = 0;  // radius of a disc [px]
   };
   struct Runner {
     Eigen::Vector3d start, axis;

@@ -21,6 +21,24 @@ bool at_a_star(const LeftoverDot& dot, const StarCatalogue& catalogue,
   return found;
 }
 
+// Stars whose lights run together make one dot between them, about at their photocentre: a camera parts fewer
+// than the catalogue, which is merged for the finest.
+bool between_stars(const LeftoverDot& dot, const StarCatalogue& catalogue,
+                   const std::optional<ApparentPlace>& from_here, double pixel_angle) noexcept {
+  constexpr double kTogether = 4;  // [px]
+  constexpr double kNear = 1;      // of the photocentre; full pixels and trails shift it [px]
+  Eigen::Vector3d photocentre = Eigen::Vector3d::Zero();
+  int stars = 0;
+  catalogue.near(dot.direction, kTogether * pixel_angle, [&](std::uint16_t s) {
+    Eigen::Vector3d star = catalogue.stars()[s].direction;
+    if (from_here && !from_here->observe_from_centre(star)) return;
+    if ((star - dot.direction).norm() > kTogether * pixel_angle) return;
+    photocentre += std::pow(10.0, -0.4 * static_cast<double>(catalogue.stars()[s].magnitude)) * star;
+    ++stars;
+  });
+  return stars > 1 && (photocentre.normalized() - dot.direction).norm() < kNear * pixel_angle;
+}
+
 }  // namespace
 
 Eigen::Matrix3d direction_covariance(const LeftoverDot& dot) noexcept {
@@ -66,7 +84,10 @@ std::span<const LeftoverDot> LeftoverDots::find(const DotLists& dots, const Pair
       dot.snr = seen.snr;
       dot.camera = camera;
       dot.dot = index;
-      if (!at_a_star(dot, catalogue, pairings.sky.from_here, gate_chi2)) found_.push_back(dot);
+      if (at_a_star(dot, catalogue, pairings.sky.from_here, gate_chi2) ||
+          between_stars(dot, catalogue, pairings.sky.from_here, rig.cameras[c].lens.pixel_angle()))
+        continue;
+      found_.push_back(dot);
     }
   }
   return found_;

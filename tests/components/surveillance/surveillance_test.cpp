@@ -100,6 +100,45 @@ TEST_F(WatchedSky, StarsFainterThanArePairedAreNoObjects) {
   EXPECT_LT(objects().leftover_dots, 20U);
 }
 
+// One dot in the middle of camera 0, which looks at `direction`, turned aside by `offset` of its pixels.
+std::size_t leftovers_about(const Eigen::Vector3d& direction, double offset, const Rig& rig,
+                            const StarCatalogue& catalogue) {
+  const RigCamera& camera = rig.cameras[0];
+  auto attitude = std::make_unique<AttitudeEstimate>();
+  attitude->valid = true;
+  const Eigen::Vector3d axis = camera.rig_from_camera.rotation * Eigen::Vector3d::UnitZ();
+  attitude->solution.rig_from_j2000 = Eigen::Quaterniond::FromTwoVectors(direction, axis);
+  auto lists = std::make_unique<DotLists>();
+  lists->cameras.resize(rig.cameras.size());
+  Dot dot;
+  EXPECT_TRUE(camera.lens.project(Eigen::Vector3d::UnitZ(), dot.pixel));
+  dot.pixel.x() += offset;
+  dot.covariance = 0.01 * Eigen::Matrix2d::Identity();
+  lists->cameras[0].dots.push_back(dot);
+  const auto leftovers = std::make_unique<LeftoverDots>();
+  return leftovers->find(*lists, Pairings{}, *attitude, rig, catalogue, 0.05, 13.8).size();
+}
+
+TEST_F(WatchedSky, StarsThatOneCameraDoesNotPartAreNoObjects) {
+  const double pixel = rig_.cameras[0].lens.pixel_angle();
+  int pairs = 0;
+  for (const SkyStar& a : catalogue_->stars()) {
+    int near = 0;
+    Eigen::Vector3d photocentre = a.direction;
+    for (const SkyStar& b : catalogue_->stars()) {
+      const double apart = (a.direction - b.direction).norm();
+      if (&a == &b || apart > 12 * pixel) continue;
+      ++near;
+      photocentre += std::pow(10.0, -0.4 * static_cast<double>(b.magnitude - a.magnitude)) * b.direction;
+      if (apart < 2 * pixel || apart > 3.5 * pixel) near = 2;  // not a pair by itself
+    }
+    if (near != 1 || ++pairs > 5) continue;
+    EXPECT_EQ(leftovers_about(photocentre.normalized(), 0, rig_, *catalogue_), 0U) << a.hr;
+    EXPECT_EQ(leftovers_about(photocentre.normalized(), 5, rig_, *catalogue_), 1U) << a.hr;
+  }
+  EXPECT_GT(pairs, 2);
+}
+
 TEST_F(WatchedSky, WhatMovesStandsOrTurnsWithTheRigIsToldApart) {
   // Through the middle of the first camera's field at the time of the tenth frame set.
   begin_frame();

@@ -84,11 +84,12 @@ std::string charts(const DockingTrial& t) {
 // The clock's offset and the mounting, which are found from the motion and no part of the errors.
 std::string platform_text(const PlatformMatch& p) {
   std::string text;
-  for (const auto& [what, m] : {std::pair{"attitude", &p.attitude}, std::pair{"pose", &p.pose}})
-    text +=
-        format("platform         by %s: clock ahead %.4f +- %.4f s, mounting known to %.4f deg and %.2f mm\n",
-               what, m->offset, m->offset_sigma, m->right_sigma.head<3>().norm() / kDegree,
-               1e3 * m->right_sigma.tail<3>().norm());
+  for (const auto& [what, m] : {std::pair{"attitude", &p.attitude}, std::pair{"pose", &p.pose}}) {
+    text += format("platform         by %s: clock ahead %.4f +- %.4f s, mounting known to %.4f deg", what,
+                   m->offset, m->offset_sigma, m->right_sigma.head<3>().norm() / kDegree);
+    if (what == std::string("pose")) text += format(" and %.2f mm", 1e3 * m->right_sigma.tail<3>().norm());
+    text += "\n";
+  }
   return text;
 }
 

@@ -34,6 +34,10 @@ TEST(EarthRotation, IsAtTheBoundAndFarBelowTheDissertation) {
   const std::string page = folder.read("run/earth_rotation.html");
   EXPECT_THAT(page, HasSubstr("Beside the dissertation"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+  EXPECT_THAT(page, HasSubstr("width=device-width"));                                    // a phone
+  EXPECT_THAT(page, HasSubstr("@media print"));                                          // paper
+  for (const char* outside : {"http:", "https:", "src='/", "href=", "@import", "url("})  // no network
+    EXPECT_THAT(page, ::testing::Not(HasSubstr(outside)));
   EXPECT_FALSE(std::filesystem::exists(folder / "run/frames/hdr1"));  // the images are removed
   EXPECT_TRUE(std::filesystem::exists(folder / "run/frames/truth.jsonl"));
 }

@@ -53,7 +53,7 @@ class FrameReport {
     EventSample* event = nullptr;
     AckSample* ack = nullptr;
   };
-  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + limits::kTargetBodies + 3 + kEvents +
+  static constexpr std::size_t kEntries = 1 + limits::kCameras + 1 + 2 * limits::kTargetBodies + 3 + kEvents +
                                           kAcks + 5;  // as the members below, but frame_timing
   StaticVector<Entry, kEntries> entries;              ///< in the order they are sent
 
@@ -62,6 +62,7 @@ class FrameReport {
   omma_Attitude attitude{};
   std::array<omma_RelativePose, limits::kTargetBodies> poses{};
   omma_UnknownObjects objects{};
+  std::array<omma_Approach, limits::kTargetBodies> approaches{};
   omma_ImageChunk image_chunk{};
   std::array<EventSample, kEvents> events{};
   std::array<AckSample, kAcks> acks{};

@@ -42,6 +42,10 @@ static_assert(omma_SOLVE_INCONSISTENT == static_cast<int>(SolveStatus::kInconsis
 static_assert(omma_HEALTH_OK == static_cast<int>(HealthState::kOk));
 static_assert(omma_HEALTH_DEGRADED == static_cast<int>(HealthState::kDegraded));
 static_assert(omma_HEALTH_FAILED == static_cast<int>(HealthState::kFailed));
+static_assert(omma_RANGE_NONE == static_cast<int>(RangeMode::kNone));
+static_assert(omma_RANGE_FAR == static_cast<int>(RangeMode::kFar));
+static_assert(omma_RANGE_INTERMEDIATE == static_cast<int>(RangeMode::kIntermediate));
+static_assert(omma_RANGE_CLOSE == static_cast<int>(RangeMode::kClose));
 static_assert(omma_MOTION_UNDECIDED == static_cast<int>(ObjectMotion::kUndecided));
 static_assert(omma_MOTION_MOVING == static_cast<int>(ObjectMotion::kMoving));
 static_assert(omma_MOTION_WITH_THE_STARS == static_cast<int>(ObjectMotion::kWithTheStars));

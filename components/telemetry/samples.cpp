@@ -270,6 +270,30 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
   out.alternative_chi2 = solution.alternative_chi2;
 }
 
+void fill(const ApproachEstimate& approach, std::string_view body_name, omma_Approach& out) noexcept {
+  out.frame = approach.frame;
+  out.time_ns = approach.time_ns;
+  out.valid = approach.mode != RangeMode::kNone;
+  out.body = approach.body;
+  set_text(out.body_name, body_name);
+  out.mode = same<omma_RangeMode>(approach.mode);
+  out.seen = approach.seen;
+  out.object = approach.object;
+  out.snr = approach.snr;
+  out.direction = vector(approach.direction);
+  put_matrix(approach.covariance, out.covariance_direction_rad2);
+  out.inertial_valid = approach.inertial_valid;
+  out.direction_j2000 = vector(approach.direction_j2000);
+  put_matrix(approach.covariance_j2000, out.covariance_direction_j2000_rad2);
+  out.range_valid = approach.range_valid;
+  out.range_m = approach.range;
+  out.range_sigma_m = approach.range_sigma;
+  out.range_rate_m_s = approach.range_rate;
+  out.range_rate_sigma_m_s = approach.range_rate_sigma;
+  out.magnitude_at_1m = approach.magnitude_at_1m;
+  out.magnitude_sigma = approach.magnitude_sigma;
+}
+
 void fill(const UnknownObjects& objects, omma_UnknownObjects& out) noexcept {
   out.frame = objects.frame;
   out.time_ns = objects.time_ns;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 
+#include "components/approach/approach_estimate.hpp"
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
 #include "components/exposure/exposure_report.hpp"
@@ -56,6 +57,7 @@ void claim(const UnknownObjects& objects, std::span<omma_CameraDots> cameras) no
 
 void fill(const AttitudeEstimate& attitude, omma_Attitude& out) noexcept;
 void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePose& out) noexcept;
+void fill(const ApproachEstimate& approach, std::string_view body_name, omma_Approach& out) noexcept;
 /// @param out  `objects` holds room for limits::kUnknownObjects
 void fill(const UnknownObjects& objects, omma_UnknownObjects& out) noexcept;
 /// @param out  `groups` holds room for limits::kRateGroups

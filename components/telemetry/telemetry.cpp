@@ -21,6 +21,7 @@ void Telemetry::visit_ports(PortVisitor& visitor) const {
   visitor.input("attitude", attitude);
   visitor.input("poses", poses);
   visitor.input("objects", objects);
+  if (approaches.source() != nullptr) visitor.input("approaches", approaches);
   visitor.input("image", image);
   visitor.input("health", health);
   visitor.input("timing", timing);
@@ -103,6 +104,14 @@ void Telemetry::add_products(Report& report) noexcept {
   }
   telemetry::fill(*objects, report.objects);
   add(report, report.objects, numbers_[static_cast<std::size_t>(TopicId::kUnknownObjects)]);
+  if (approaches.source() != nullptr) {
+    for (std::size_t b = 0; b < approaches->bodies.size(); ++b) {
+      const ApproachEstimate& approach = approaches->bodies[b];
+      if (approach.body >= names_.bodies.size()) continue;
+      telemetry::fill(approach, names_.bodies[approach.body].view(), report.approaches[b]);
+      add(report, report.approaches[b], approach_numbers_[approach.body]);
+    }
+  }
   if (image->valid) {
     telemetry::fill(*image, report.image_chunk);
     add(report, report.image_chunk, numbers_[static_cast<std::size_t>(TopicId::kImageChunk)]);
@@ -242,6 +251,9 @@ void Telemetry::count_dropped() noexcept {
   for (std::size_t c = 0; c < count; ++c) ++dots_numbers_[c];
   for (const PoseEstimate& pose : poses->bodies)
     if (pose.body < names_.bodies.size()) ++pose_numbers_[pose.body];
+  if (approaches.source() == nullptr) return;
+  for (const ApproachEstimate& approach : approaches->bodies)
+    if (approach.body < names_.bodies.size()) ++approach_numbers_[approach.body];
 }
 
 }  // namespace omma

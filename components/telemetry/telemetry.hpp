@@ -23,6 +23,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/approach/approach_estimate.hpp"
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
 #include "components/exposure/exposure_report.hpp"
@@ -65,6 +66,7 @@ class Telemetry final : public Component {
   In<AttitudeEstimate> attitude;
   In<PoseEstimates> poses;
   In<UnknownObjects> objects;
+  In<ApproachEstimates> approaches;  // left unbound where no light is followed
   In<ImageChunk> image;
   In<HealthReport> health;  // from another rate group: sent once per report
   In<TimingReport> timing;
@@ -121,6 +123,7 @@ class Telemetry final : public Component {
   std::array<std::uint32_t, telemetry::kTopicCount> numbers_{};
   std::array<std::uint32_t, limits::kCameras> dots_numbers_{};
   std::array<std::uint32_t, limits::kTargetBodies> pose_numbers_{};
+  std::array<std::uint32_t, limits::kTargetBodies> approach_numbers_{};
   std::uint64_t frame_ = 0;  // newest frame set
   TimeNs health_time_ns_ = 0;
   bool has_health_ = false;

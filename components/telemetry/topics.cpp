@@ -19,6 +19,8 @@ const std::array<Topic, kAllTopics>& all_topics() noexcept {
        Delivery::kStream, 1, 2000, false},
       {TopicId::kUnknownObjects, "unknown_objects", "omma::UnknownObjects", &omma_UnknownObjects_desc,
        Delivery::kStream, 1, 2000, false},
+      {TopicId::kApproach, "approach", "omma::Approach", &omma_Approach_desc, Delivery::kStream, 1, 2000,
+       false},
       {TopicId::kHealth, "health", "omma::Health", &omma_Health_desc, Delivery::kStream, 1, 3000, false},
       {TopicId::kTiming, "timing", "omma::Timing", &omma_Timing_desc, Delivery::kStream, 1, 3000, true},
       {TopicId::kFrameTiming, "frame_timing", "omma::FrameTiming", &omma_FrameTiming_desc, Delivery::kStream,

@@ -20,6 +20,7 @@ enum class TopicId : std::uint8_t {
   kAttitude,
   kRelativePose,
   kUnknownObjects,
+  kApproach,
   kHealth,
   kTiming,
   kFrameTiming,
@@ -34,7 +35,7 @@ enum class TopicId : std::uint8_t {
   kCommand,
   kDictionary,
 };
-inline constexpr std::size_t kTopicCount = 15;  ///< of telemetry
+inline constexpr std::size_t kTopicCount = 16;  ///< of telemetry
 
 /// How a topic travels over DDS.
 enum class Delivery : std::uint8_t {
@@ -87,6 +88,10 @@ struct TopicOf<omma_RelativePose> {
 template <>
 struct TopicOf<omma_UnknownObjects> {
   static constexpr TopicId id = TopicId::kUnknownObjects;
+};
+template <>
+struct TopicOf<omma_Approach> {
+  static constexpr TopicId id = TopicId::kApproach;
 };
 template <>
 struct TopicOf<omma_Health> {

@@ -13,6 +13,7 @@
 #include "components/geometry/rig_file.hpp"
 #include "components/tracker/tracker_tuning.hpp"
 #include "fsw/app/camera_tables.hpp"
+#include "fsw/app/mission_approach.hpp"
 #include "fsw/app/mission_imaging.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "hal/sources/live_drivers.hpp"
@@ -106,7 +107,7 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, d
   return cameras;
 }
 
-std::vector<TargetBody> read_bodies(const TomlTable& root) {
+std::vector<TargetBody> read_bodies(const TomlTable& root, ApproachParameters& approach) {
   std::vector<TargetBody> bodies;
   for (const TomlTable& table : root.tables_if("body")) {
     const std::string name = table.text("name");
@@ -119,6 +120,9 @@ std::vector<TargetBody> read_bodies(const TomlTable& root) {
     }
     TargetBody body = read_target_file(table.path("targets"));
     body.name = Name(name);
+    if (const auto light = table.table_if("light")) {
+      approach.bodies.push_back(read_light(*light, static_cast<std::uint8_t>(bodies.size())));
+    }
     bodies.push_back(body);
     table.refuse_unknown_keys();
   }
@@ -237,7 +241,7 @@ Mission read_mission(const std::filesystem::path& file) {
     mission.trigger = read_trigger(*trigger, mission.frame_rate_hz);
   if (const auto motion = root.table_if("motion"))
     mission.motion = read_motion(*motion, mission.frame_rate_hz);
-  mission.bodies = read_bodies(root);
+  mission.bodies = read_bodies(root, mission.approach);
   if (const auto lookout = root.table_if("lookout")) mission.lookout = read_lookout(*lookout);
   if (const auto tracker = root.table_if("tracker")) mission.tracker = read_tracker(*tracker);
   mission.tracker.observer.julian_date_utc = epoch;
@@ -245,6 +249,7 @@ Mission read_mission(const std::filesystem::path& file) {
     read_observer(*observer, epoch.has_value(), mission.tracker);
   if (const auto surveillance = root.table_if("surveillance"))
     mission.surveillance = read_surveillance(*surveillance);
+  if (const auto approach = root.table_if("approach")) read_approach(*approach, mission.approach);
   if (const auto attitude = root.table_if("attitude"))
     mission.attitude = read_attitude(*attitude, mission.frame_rate_hz);
   IntegrityOptions integrity;

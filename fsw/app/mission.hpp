@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "components/approach/approach_parameters.hpp"
 #include "components/attitude/attitude.hpp"
 #include "components/catalogue/target.hpp"
 #include "components/exposure/exposure_control.hpp"
@@ -54,6 +55,7 @@ struct Mission {
   /// it.
   telemetry::PerStage<double> latency_ms{};
   SurveillanceParameters surveillance;
+  ApproachParameters approach;
   ImagingParameters imaging;  ///< a panorama every ten frame sets, unless the mission says otherwise
   int dds_domain = 0;
 };

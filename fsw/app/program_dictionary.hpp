@@ -29,8 +29,9 @@ inline constexpr auto kEvents = joined(
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// Every command it takes.
-inline constexpr auto kCommands = joined(kCommanderCommands, kParameterCommands, kModeCommands,
-                                         kFlightRecordCommands, kImagingCommands, kTrackerCommands);
+inline constexpr auto kCommands =
+    joined(kCommanderCommands, kParameterCommands, kModeCommands, kFlightRecordCommands, kImagingCommands,
+           kTrackerCommands, kApproachCommands);
 static_assert(are_unique(kCommands) && are_well_formed(kCommands), "two commands share an opcode or a name");
 
 /// Every parameter.

@@ -45,6 +45,18 @@ std::vector<PixelMask> masks(const Mission& mission) {
   return all;
 }
 
+// Light is added up in raw frames: only of sensors whose grey levels are even in light as they come.
+ApproachParameters approach_parameters(const Mission& mission) {
+  ApproachParameters parameters = mission.approach;
+  for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
+    const ExtractorCamera& camera = mission.cameras[c].dots;
+    const bool even = camera.sensor.response.empty() && camera.illumination.empty();
+    parameters.gain[c] = even ? camera.parameters.gain : 0;
+    parameters.black_level[c] = camera.parameters.black_level;
+  }
+  return parameters;
+}
+
 std::optional<UtcNs> epoch(const Mission& mission) {
   if (mission.epoch_utc.empty()) return std::nullopt;
   return parse_utc_ns(mission.epoch_utc);
@@ -94,6 +106,8 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       attitude(mission_.attitude),
       pose(mission_.pose),
       surveillance(mission_.surveillance, mission_.rig, catalogue_, mission_.tracker.floor_px),
+      approach(approach_parameters(mission_), mission_.rig, catalogue_, mission_.bodies,
+               mission_.tracker.floor_px),
       imaging(mission_.imaging, mission_.rig),
       limit_watch(kLimits, events),
       mode_keeper(kTransitions, events),
@@ -119,6 +133,7 @@ void Topology::bind_commands() {
   commander.bind(kModeCommands, mode_keeper);
   commander.bind(kImagingCommands, imaging);
   commander.bind(kTrackerCommands, tracker);
+  commander.bind(kApproachCommands, approach);
 }
 
 CommandVocabulary Topology::vocabulary() const {
@@ -148,6 +163,12 @@ void Topology::connect() {
   surveillance.dots.bind(extractor.dots);
   surveillance.pairings.bind(tracker.pairings);
   surveillance.attitude.bind(attitude.estimate);
+  approach.frames.bind(cameras.frames);
+  approach.dots.bind(extractor.dots);
+  approach.pairings.bind(tracker.pairings);
+  approach.attitude.bind(attitude.estimate);
+  approach.poses.bind(pose.estimates);
+  approach.objects.bind(surveillance.objects);
   imaging.frames.bind(cameras.frames);
   imaging.dots.bind(extractor.dots);
   imaging.attitude.bind(attitude.estimate);
@@ -168,6 +189,7 @@ void Topology::connect() {
   telemetry.attitude.bind(attitude.estimate);
   telemetry.poses.bind(pose.estimates);
   telemetry.objects.bind(surveillance.objects);
+  telemetry.approaches.bind(approach.estimates);
   telemetry.image.bind(imaging.chunk);
   telemetry.health.bind(health_to_telemetry_);
   telemetry.timing.bind(timing_to_telemetry_);
@@ -218,6 +240,7 @@ RateGroupTable Topology::table() {
                                  {attitude, microseconds(2000), {}, 1, kAttitudeModes},
                                  {pose, microseconds(2000), {}, 1, kAllProductsModes},
                                  {surveillance, microseconds(2000), {}, 1, kAllProductsModes},
+                                 {approach, microseconds(2000), {}, 1, kAllProductsModes},
                                  {imaging, microseconds(10000), draw_less, 1, kAllProductsModes},
                                  {housekeeping, microseconds(100)},
                                  {limit_watch, microseconds(100)},

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "components/approach/approach.hpp"
 #include "components/attitude/attitude.hpp"
 #include "components/camera/cameras.hpp"
 #include "components/camera/trigger_watch.hpp"
@@ -92,6 +93,7 @@ class Topology {
   Attitude attitude;
   RelativePose pose;
   Surveillance surveillance;
+  Approach approach;
   Imaging imaging;
   Housekeeping housekeeping;
   LimitWatch limit_watch;

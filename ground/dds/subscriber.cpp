@@ -26,7 +26,7 @@ std::string spacecraft_of(const std::string& topic) {
 /// Camera or body, which follow the head in the topics that have a key; else 0.
 int key_of(TopicId id, std::span<const std::byte> cdr) {
   constexpr std::size_t kKeyAt = 4 + 21;
-  const bool keyed = id == TopicId::kDots || id == TopicId::kRelativePose;
+  const bool keyed = id == TopicId::kDots || id == TopicId::kRelativePose || id == TopicId::kApproach;
   return keyed && cdr.size() > kKeyAt ? std::to_integer<int>(cdr[kKeyAt]) : 0;
 }
 

@@ -193,6 +193,26 @@ void add_pose(Table& table, const omma_RelativePose& pose) {
                    sigma(2) * kDegrees));
 }
 
+void add_approach(Table& table, const omma_Approach& approach) {
+  constexpr std::array kModes = {"not seen", "far", "intermediate", "close"};
+  const LineStyle style = approach.valid && approach.seen ? LineStyle::kGood : LineStyle::kWarning;
+  table.add(TopicId::kApproach, style,
+            format("%-12s %-13s%s", approach.body_name,
+                   kModes[std::min<std::size_t>(approach.mode, kModes.size() - 1)],
+                   approach.seen ? "" : "   expected"));
+  if (!approach.valid) return;
+  const omma_Vector3& d = approach.direction;
+  const double* covariance = approach.covariance_direction_rad2;
+  table.add(TopicId::kApproach, style,
+            format("  direction      x %+.5f  y %+.5f  z %+.5f   1-sigma %.1f arcsec", d.x, d.y, d.z,
+                   std::sqrt(0.5 * (covariance[0] + covariance[4] + covariance[8])) * kArcseconds));
+  if (!approach.range_valid) return;
+  table.add(
+      TopicId::kApproach, style,
+      format("  range          %.3f m   1-sigma %.3f m   rate %+.3f m/s   1-sigma %.3f m/s", approach.range_m,
+             approach.range_sigma_m, approach.range_rate_m_s, approach.range_rate_sigma_m_s));
+}
+
 void add_objects(Table& table, const omma_UnknownObjects& objects) {
   table.add(TopicId::kUnknownObjects, LineStyle::kPlain,
             format("%u followed   %u candidates   %u dots that nobody claims", objects.objects._length,
@@ -342,6 +362,8 @@ std::vector<TableLine> monitor_table(const NewestSamples& samples, const LinkSta
   if (samples.attitude() != nullptr) add_attitude(table, *samples.attitude());
   table.heading("POSES", TopicId::kRelativePose);
   for (const auto& [body, pose] : samples.poses()) add_pose(table, pose);
+  if (!samples.approaches().empty()) table.heading("APPROACH", TopicId::kApproach);
+  for (const auto& [body, approach] : samples.approaches()) add_approach(table, approach);
   table.heading("OBJECTS", TopicId::kUnknownObjects);
   if (samples.objects() != nullptr) add_objects(table, *samples.objects());
   if (const omma_Motion* motion = samples.motion()) {

@@ -37,6 +37,12 @@ void NewestSamples::take(telemetry::TopicId id, std::span<const std::byte> cdr, 
     case TopicId::kUnknownObjects:
       sound = keep(objects_reader_, cdr, objects_);
       break;
+    case TopicId::kApproach: {
+      const omma_Approach* approach = nullptr;
+      sound = keep(approach_reader_, cdr, approach);
+      if (sound) approaches_[approach->body] = *approach;
+      break;
+    }
     case TopicId::kHealth:
       sound = keep(health_reader_, cdr, health_);
       break;

@@ -41,7 +41,8 @@ class NewestSamples {
   const omma_ImageChunk* image_chunk() const { return image_chunk_; }
   const omma_Motion* motion() const { return motion_; }
   const omma_Status* status() const { return status_; }
-  const std::map<int, omma_RelativePose>& poses() const { return poses_; }  ///< by body
+  const std::map<int, omma_RelativePose>& poses() const { return poses_; }        ///< by body
+  const std::map<int, omma_Approach>& approaches() const { return approaches_; }  ///< by body
   /// Events and what became of commands, oldest first.
   const std::deque<EventLine>& events() const { return events_; }
 
@@ -57,6 +58,7 @@ class NewestSamples {
   telemetry::CdrReader frame_set_reader_{telemetry::TopicId::kFrameSet};
   telemetry::CdrReader attitude_reader_{telemetry::TopicId::kAttitude};
   telemetry::CdrReader pose_reader_{telemetry::TopicId::kRelativePose};
+  telemetry::CdrReader approach_reader_{telemetry::TopicId::kApproach};
   telemetry::CdrReader objects_reader_{telemetry::TopicId::kUnknownObjects};
   telemetry::CdrReader health_reader_{telemetry::TopicId::kHealth};
   telemetry::CdrReader timing_reader_{telemetry::TopicId::kTiming};
@@ -78,6 +80,7 @@ class NewestSamples {
   const omma_Motion* motion_ = nullptr;
   const omma_Status* status_ = nullptr;
   std::map<int, omma_RelativePose> poses_;
+  std::map<int, omma_Approach> approaches_;
   std::deque<EventLine> events_;
   std::map<telemetry::TopicId, SteadyClock::time_point> came_;
   std::deque<std::pair<std::uint64_t, SteadyClock::time_point>> frames_;  // number and arrival

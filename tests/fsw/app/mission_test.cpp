@@ -15,48 +15,13 @@
 #include "fsw/app/program_dictionary.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/image_file.hpp"
+#include "tests/fsw/app/mission_file.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
 namespace {
 
 using ::testing::HasSubstr;
-
-/// A copy of config/ whose mission a test may spoil.
-class MissionFile : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(OMMA_BINARY_DIR) / "tests" /
-              (std::string("mission_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::copy(std::filesystem::path(OMMA_SOURCE_DIR) / "config", folder_,
-                          std::filesystem::copy_options::recursive);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::filesystem::path file() const { return folder_ / "demo.toml"; }
-
-  void replace(const std::string& name, const std::string& from, const std::string& to) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / name).rdbuf();
-    std::string content = text.str();
-    const std::size_t at = content.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    content.replace(at, from.size(), to);
-    std::ofstream(folder_ / name) << content;
-  }
-
-  std::string message() const {
-    try {
-      read_mission(file());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-
-  std::filesystem::path folder_;
-};
 
 TEST_F(MissionFile, OfTheDemoIsRead) {
   const Mission mission = read_mission(file());
@@ -327,7 +292,7 @@ TEST_F(MissionFile, IsDescribedWithoutItsFrames) {
   EXPECT_EQ(dictionary.at("topics").size(), telemetry::kTopicCount);
   EXPECT_EQ(dictionary.at("topics").at(2).at("name"), "omma/cubesat-1/attitude");
   EXPECT_EQ(dictionary.at("events").size(), kEvents.size());
-  EXPECT_EQ(dictionary.at("rate_groups").at(0).at("components").size(), 17U);
+  EXPECT_EQ(dictionary.at("rate_groups").at(0).at("components").size(), 18U);
   EXPECT_THAT(dictionary.at("idl").get<std::string>(), HasSubstr("struct Attitude"));
 }
 
@@ -417,7 +382,7 @@ TEST_F(MissionFile, WithAFrameRateTheScheduleCannotHoldIsRefusedInRealTime) {
   std::ostringstream said;
   said << std::ifstream(folder_ / "said").rdbuf();
   EXPECT_THAT(said.str(),
-              HasSubstr("the schedule does not hold: rate group 'vision' has budgets of 45.700 ms in "
+              HasSubstr("the schedule does not hold: rate group 'vision' has budgets of 47.700 ms in "
                         "a period of 20.000 ms"));
 }
 

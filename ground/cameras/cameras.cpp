@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fsw/kernel/input_error.hpp"
-#include "hal/libcamera/libcamera_driver.hpp"
+#include "hal/libcamera/libcamera_child.hpp"
 #include "hal/live/pixel_layout.hpp"
 #include "hal/v4l2/v4l2_controls.hpp"
 #include "hal/v4l2/v4l2_device.hpp"
@@ -64,7 +64,7 @@ int list_by_libcamera() {
   std::vector<LibcameraDescription> cameras;
   try {
     cameras = list_libcameras();
-  } catch (const InputError& error) {  // the rest of the list is worth having
+  } catch (const std::exception& error) {  // the rest of the list is worth having
     std::printf("%s\n", error.what());
   }
   for (const LibcameraDescription& camera : cameras) {

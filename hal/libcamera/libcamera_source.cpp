@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "fsw/kernel/input_error.hpp"
-#include "hal/libcamera/libcamera_driver.hpp"
 #include "hal/libcamera/libcamera_names.hpp"
 
 namespace omma {
@@ -232,21 +231,12 @@ Taken LibcameraSource::take(std::byte* pixels, int timeout_ms) noexcept {
   return taken;
 }
 
-}  // namespace omma
-
-// What libcamera_driver.cpp looks up.
-extern "C" omma::FrameSource* omma_make_libcamera_source(const omma::CameraSetup& setup) {
-  return new omma::LibcameraSource(setup);
-}
-
-extern "C" void omma_list_libcameras(std::vector<omma::LibcameraDescription>& descriptions) {
-  using namespace omma;
+std::vector<LibcameraDescription> describe_libcameras() {
   const auto cameras = manager();
   const auto all = cameras->cameras();
+  std::vector<LibcameraDescription> descriptions;
   for (const auto& camera : all) {
-    LibcameraDescription one;
-    one.id = camera->id();
-    one.model = model_of(*camera);
+    LibcameraDescription one{camera->id(), model_of(*camera), {}, {}};
     for (const auto role : {libcamera::StreamRole::Raw, libcamera::StreamRole::Viewfinder}) {
       const auto configuration = camera->generateConfiguration({role});
       if (!configuration || configuration->empty()) continue;
@@ -263,4 +253,7 @@ extern "C" void omma_list_libcameras(std::vector<omma::LibcameraDescription>& de
       one.controls.push_back(id->name() + ": " + range.toString());
     descriptions.push_back(std::move(one));
   }
+  return descriptions;
 }
+
+}  // namespace omma

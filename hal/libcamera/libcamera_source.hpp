@@ -1,5 +1,6 @@
 // Frames of a camera that libcamera knows: raw streams where the format is a mosaic or grey of the sensor,
-// processed ones otherwise. Built where libcamera is installed; its own types stay in the .cpp.
+// processed ones otherwise. Built where libcamera is installed, into
+// a program of its own; its own types stay in the .cpp.
 #pragma once
 
 #include <memory>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "hal/camera_setup.hpp"
+#include "hal/libcamera/libcamera_child.hpp"
 #include "hal/live/frame_source.hpp"
 
 namespace omma {
@@ -34,5 +36,8 @@ class LibcameraSource final : public FrameSource {
   GreyShape shape_;
   std::unique_ptr<Stream> stream_;
 };
+
+/// The cameras that libcamera finds. @throws std::runtime_error where it cannot look for them
+std::vector<LibcameraDescription> describe_libcameras();
 
 }  // namespace omma

@@ -114,12 +114,18 @@ SharedFramesWriter::~SharedFramesWriter() {
 }
 
 void SharedFramesWriter::write(const std::byte* pixels, TimeNs time_ns) noexcept {
+  write(pixels, time_ns, memory_.header().written.load(std::memory_order_relaxed));
+}
+
+void SharedFramesWriter::write(const std::byte* pixels, TimeNs time_ns, std::uint32_t sequence) noexcept {
   SharedFramesHeader& header = memory_.header();
   const std::uint32_t frame = header.written.load(std::memory_order_relaxed);
   SharedSlot& slot = memory_.slot(frame);
   slot.frame.exchange(
       0, std::memory_order_acq_rel);  // before any pixel changes: a reader of the old frame sees it
-  std::memcpy(memory_.pixels(frame), pixels, memory_.frame_bytes());
+  if (pixels != nullptr) std::memcpy(memory_.pixels(frame), pixels, memory_.frame_bytes());
+  slot.damaged = pixels == nullptr ? 1 : 0;
+  slot.sequence = sequence;
   slot.time_ns = time_ns;
   slot.frame.store(frame + 1, std::memory_order_release);
   header.written.store(frame + 1, std::memory_order_release);

@@ -31,8 +31,9 @@ struct SharedFramesHeader {
 
 struct SharedSlot {
   std::atomic<std::uint32_t> frame{0};  // n + 1 of the frame in it, 0 while it is written
-  std::uint32_t padding = 0;
-  std::int64_t time_ns = 0;  // exposure midpoint, CLOCK_MONOTONIC
+  std::uint32_t sequence = 0;           // the device's own count, frames that it lost included
+  std::int64_t time_ns = 0;             // exposure midpoint, CLOCK_MONOTONIC
+  std::uint64_t damaged = 0;            // 1: the device called it wrong, the pixels mean nothing
 };
 
 /// A mapped file of frames.
@@ -78,6 +79,9 @@ class SharedFramesWriter {
 
   /// @param pixels  rows packed, as the shape says
   void write(const std::byte* pixels, TimeNs time_ns) noexcept;
+  /// The same of a device that counts its frames.
+  /// @param pixels  null for a frame that it called wrong
+  void write(const std::byte* pixels, TimeNs time_ns, std::uint32_t sequence) noexcept;
   std::int32_t exposure_us() const noexcept { return memory_.header().exposure_us.load(); }
   std::int32_t gain_percent() const noexcept { return memory_.header().gain_percent.load(); }
 

@@ -98,13 +98,13 @@ Taken SharedSource::copy(std::uint32_t written, std::byte* pixels) noexcept {
   constexpr std::uint32_t kSafe = SharedFramesHeader::kSlots - 1;
   if (written - next_ > kSafe) next_ = written - kSafe;
   SharedSlot& slot = memory_.slot(next_);
-  Taken taken{TakeStatus::kDamaged, 0, next_};
+  Taken taken{TakeStatus::kDamaged, slot.time_ns, slot.sequence};
   const bool before = slot.frame.load(std::memory_order_acquire) == next_ + 1;
   std::memcpy(pixels, memory_.pixels(next_), shape_.bytes());
-  taken.time_ns = slot.time_ns;
+  const bool sound = slot.damaged == 0;
   // Not to be looked at before the pixels are copied: a read that is also a write orders what came before it.
-  if (before && slot.frame.fetch_add(0, std::memory_order_acq_rel) == next_ + 1)
-    taken.status = TakeStatus::kFrame;
+  const bool whole = before && slot.frame.fetch_add(0, std::memory_order_acq_rel) == next_ + 1;
+  if (whole && sound) taken.status = TakeStatus::kFrame;
   ++next_;
   return taken;
 }

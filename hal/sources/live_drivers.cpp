@@ -1,7 +1,7 @@
 #include "hal/sources/live_drivers.hpp"
 
 #include "fsw/kernel/input_error.hpp"
-#include "hal/libcamera/libcamera_driver.hpp"
+#include "hal/libcamera/libcamera_child.hpp"
 #include "hal/shared_frames/shared_source.hpp"
 #include "hal/v4l2/v4l2_source.hpp"
 

@@ -1,8 +1,5 @@
 # Shared by the parts of `./test hil` (inside the machine). Sourced, not run.
 OMMA=build/release/bin/omma
-# Read once, so that they lie in memory: while the machine waits for a file, its idle time flies.
-warm() { ldd "$@" 2>/dev/null | awk '/=> \// { print $3 }' | sort -u | xargs cat "$@" > /dev/null; }
-warm $OMMA
 failed=0
 check() { # STATUS WHAT
   if [ "$1" = 0 ]; then echo "PASS  $2"; else

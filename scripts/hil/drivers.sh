@@ -3,7 +3,7 @@
 # injected errors, unplugging and replugging: against the kernel's own test drivers.
 set -uo pipefail
 source scripts/hil/checks.sh
-FRAMES=${FRAMES:-1000}
+FRAMES=$([ "${HIL_SHORT:-}" ] && echo 200 || echo 1000)
 
 modprobe vivid n_devs=1 node_types=0x1 num_inputs=1 input_types=0 || exit 1
 CAM="--camera cam0=v4l2:/dev/video0"

@@ -6,7 +6,6 @@ set -uo pipefail
 source scripts/hil/checks.sh
 OUTPUT=$1
 BIN=build/release/bin
-warm $BIN/omma-fsw
 FRAMES=build/hil/frames
 modprobe v4l2loopback devices=3 video_nr=10,11,12 card_label=hdr1,cam0,cam2 max_buffers=4 || exit 1
 

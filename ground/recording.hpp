@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "components/telemetry/cdr.hpp"
+#include "components/telemetry/mcap_reader.hpp"
 #include "components/telemetry/topics.hpp"
-#include "ground/mcap/mcap_reader.hpp"
 
 namespace omma::ground {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "fsw/app/mcap_frames.hpp"
 #include "hal/live/live_camera.hpp"
 #include "hal/recorded/recorded_camera.hpp"
 #include "hal/sources/live_drivers.hpp"
@@ -14,13 +15,21 @@ namespace {
 constexpr std::uint32_t kSlots = 6;
 constexpr int kPriority = 65;  // above the vision group: what a camera gives is taken out while a step runs
 
+// A folder of image files, or a file of messages.
+std::unique_ptr<FrameStore> frame_store(const Mission& mission, std::size_t c) {
+  const std::string name(mission.rig.cameras[c].name.view());
+  if (mission.recording.extension() == ".mcap")
+    return std::make_unique<McapFrames>(mission.recording, name, mission.frame_rate_hz);
+  return std::make_unique<FileFrames>(mission.recording / name, name);
+}
+
 // All recordings of a mission begin their next round together: after the longest.
 std::uint64_t round_length(const Mission& mission) {
   std::uint64_t length = 0;
   for (std::size_t c = 0; c < mission.rig.cameras.size(); ++c) {
     if (mission.cameras[c].driver != "recorded") continue;
-    const std::string name(mission.rig.cameras[c].name.view());
-    length = std::max(length, RecordedCamera::last_number_in(mission.recording, name) + 1);
+    const auto frames = frame_store(mission, c);
+    length = std::max(length, frames->number(frames->count() - 1) + 1);
   }
   return length;
 }
@@ -30,7 +39,7 @@ std::unique_ptr<CameraDriver> recorded(const Mission& mission, std::size_t c, co
   const RigCamera& camera = mission.rig.cameras[c];
   const int bits = mission.cameras[c].bits;
   return std::make_unique<RecordedCamera>(
-      mission.recording, std::string(camera.name.view()),
+      frame_store(mission, c),
       RecordedCameraOptions{.playback = options.lockstep ? Playback::kLockstep : Playback::kRealTime,
                             .width = camera.lens.width(),
                             .height = camera.lens.height(),

@@ -13,9 +13,10 @@ constexpr double kUsualRate = 200;  // [Hz]
 
 ServoKind read_kind(const TomlTable& table) {
   const std::string driver = table.text("driver");
+  if (driver == "recorded") return ServoKind::kRecorded;
   if (driver == "simulated") return ServoKind::kSimulated;
   if (driver == "maestro") return ServoKind::kMaestro;
-  throw table.error("driver", "\"simulated\" or \"maestro\"", driver);
+  throw table.error("driver", "\"recorded\", \"simulated\" or \"maestro\"", driver);
 }
 
 std::uint32_t read_beats(const TomlTable& table, double frame_rate_hz) {
@@ -61,11 +62,12 @@ bool has_servo_board(const Mission& mission) {
 
 std::unique_ptr<ServoDriver> servo_driver(const Mission& mission, const RunOptions& options) {
   if (!mission.motion) return nullptr;
+  if (mission.motion->driver == ServoKind::kRecorded) return std::make_unique<SimulatedServo>("recorded");
   if (mission.motion->driver == ServoKind::kSimulated || !options.with_cameras)
     return std::make_unique<SimulatedServo>();
   if (options.lockstep)
-    throw InputError(mission.file, 0, "motion.driver", "\"simulated\" in a replay, or --real-time",
-                     "maestro");
+    throw InputError(mission.file, 0, "motion.driver",
+                     "\"recorded\" or \"simulated\" in a replay, or --real-time", "maestro");
   return std::make_unique<MaestroServo>(mission.motion->maestro);
 }
 

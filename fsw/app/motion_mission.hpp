@@ -17,6 +17,7 @@ namespace omma {
 struct Mission;
 
 enum class ServoKind : std::uint8_t {
+  kRecorded,   ///< the axes moved when the frames were recorded: commands go nowhere
   kSimulated,  ///< no board: the axes are told, and nothing moves
   kMaestro,
 };

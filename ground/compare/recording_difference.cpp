@@ -6,10 +6,10 @@
 #include <set>
 
 #include "components/telemetry/cdr.hpp"
+#include "components/telemetry/mcap_reader.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/compare/tolerance.hpp"
 #include "ground/idl/cdr_values.hpp"
-#include "ground/mcap/mcap_reader.hpp"
 
 namespace omma::ground {
 namespace {

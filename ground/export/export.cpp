@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "components/telemetry/mcap_reader.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/export/csv_table.hpp"
-#include "ground/mcap/mcap_reader.hpp"
 
 namespace omma::ground {
 namespace {

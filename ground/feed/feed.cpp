@@ -13,6 +13,7 @@
 
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "ground/feed/sync_line.hpp"
 #include "ground/feed/video_output.hpp"
 #include "ground/interrupt.hpp"
 #include "hal/recorded/recorded_camera.hpp"
@@ -28,6 +29,9 @@ struct FeedOptions {
   double rate_hz = 10;
   std::uint64_t frames = 0;
   int rounds = 1;
+  std::string fired_by;
+  std::size_t lose_every = 0;
+  std::size_t late_every = 0;
 };
 
 constexpr std::string_view kShared = "simulated:";
@@ -76,7 +80,7 @@ FedCamera read_camera(const FeedOptions& options, const std::string& argument) {
   camera.device = argument.substr(equals + 1);
   // All of it is decoded before the first frame is due.
   const std::filesystem::path folder = std::filesystem::path(options.recording) / camera.name;
-  for (const RecordedCamera::File& file : RecordedCamera::find_files(folder, camera.name)) {
+  for (const FrameFile& file : find_frame_files(folder, camera.name)) {
     if (options.frames > 0 && camera.images.size() == options.frames) break;
     camera.numbers.push_back(file.number);
     camera.images.push_back(read_image(file.path));
@@ -88,6 +92,47 @@ FedCamera read_camera(const FeedOptions& options, const std::string& argument) {
   return camera;
 }
 
+// When each frame set is due: on a grid, or at the frame-sync line's edges.
+class Instants {
+ public:
+  explicit Instants(const FeedOptions& options)
+      : period_(static_cast<TimeNs>(1e9 / options.rate_hz)), start_(clock_.now() + period_) {
+    if (!options.fired_by.empty()) line_ = std::make_unique<SyncLine>(options.fired_by);
+  }
+  /// False where this program was interrupted.
+  bool wait(std::size_t turn) {
+    if (line_) return line_->wait_for_edge() != 0;
+    clock_.sleep_until(start_ + static_cast<TimeNs>(turn) * period_);
+    return !interrupted();
+  }
+  /// Two fifths of a period: too late for its trigger, too early for the next.
+  void be_late() { clock_.sleep_until(clock_.now() + 2 * period_ / 5); }
+  TimeNs now() { return clock_.now(); }
+  double seconds() { return static_cast<double>(clock_.now() - start_) * 1e-9; }
+
+ private:
+  MonotonicClock clock_;
+  TimeNs period_;
+  TimeNs start_;
+  std::unique_ptr<SyncLine> line_;
+};
+
+class FeedLog {
+ public:
+  explicit FeedLog(const std::string& path) {
+    if (path.empty()) return;
+    file_.open(path);
+    file_ << "frame,time_ns\n" << std::flush;
+    if (!file_) throw InputError(path, 0, "--log", "a file that can be written", "none");
+  }
+  void add(std::uint64_t frame, TimeNs time_ns) {
+    if (file_.is_open()) file_ << frame << ',' << time_ns << '\n' << std::flush;
+  }
+
+ private:
+  std::ofstream file_;
+};
+
 int feed(const FeedOptions& options) {
   std::vector<FedCamera> cameras;
   for (const std::string& argument : options.cameras) cameras.push_back(read_camera(options, argument));
@@ -96,26 +141,36 @@ int feed(const FeedOptions& options) {
     camera.open();
     count = std::min(count, camera.images.size());
   }
-  std::ofstream log;
-  if (!options.log.empty()) {
-    log.open(options.log);
-    log << "frame,time_ns\n";
-    if (!log) throw InputError(options.log, 0, "--log", "a file that can be written", "none");
-  }
+  // A loopback device can be opened by its reader from its first frame on, and who fires the cameras reads
+  // them.
+  if (!options.fired_by.empty())
+    for (const FedCamera& camera : cameras) camera.give(0, MonotonicClock().now());
   catch_interrupts();
-  MonotonicClock clock;
-  const auto period = static_cast<TimeNs>(1e9 / options.rate_hz);
-  const TimeNs start = clock.now() + period;
-  std::size_t fed = 0;
+  Instants instants(options);
+  FeedLog log(options.log);
+  const auto is_every = [](std::size_t turn, std::size_t every) {
+    return every > 0 && turn % every == every - 1;
+  };
   const std::size_t total = count * static_cast<std::size_t>(options.rounds);
-  for (; fed < total && !interrupted(); ++fed) {
-    clock.sleep_until(start + static_cast<TimeNs>(fed) * period);
-    const TimeNs now = clock.now();
-    for (const FedCamera& camera : cameras) camera.give(fed % count, now);
-    if (log.is_open()) log << cameras.front().numbers[fed % count] << ',' << now << '\n' << std::flush;
+  std::size_t fed = 0, lost = 0, late = 0;
+  for (std::size_t turn = 0; turn < total && instants.wait(turn); ++turn) {
+    if (is_every(turn, options.lose_every)) {
+      ++lost;
+      continue;
+    }
+    if (is_every(turn, options.late_every)) {
+      ++late;
+      instants.be_late();
+    }
+    const TimeNs now = instants.now();
+    for (const FedCamera& camera : cameras) camera.give(turn % count, now);
+    log.add(cameras.front().numbers[turn % count], now);
+    ++fed;
   }
-  const double seconds = static_cast<double>(clock.now() - start) * 1e-9;
-  std::printf("%zu frame sets of %zu cameras fed in %.2f s\n", fed, cameras.size(), seconds);
+  std::printf("%zu frame sets of %zu cameras fed in %.2f s", fed, cameras.size(), instants.seconds());
+  if (options.lose_every + options.late_every > 0)
+    std::printf(", %zu of them late; %zu left out", late, lost);
+  std::printf("\n");
   for (const FedCamera& camera : cameras) camera.print_settings();
   return 0;
 }
@@ -136,6 +191,13 @@ void add_feed(CLI::App& app, CommandContext& context) {
   command->add_option("--frames", o->frames, "Stop after so many frame sets");
   command->add_option("--rounds", o->rounds, "Play the recording so many times, one after the other")
       ->check(CLI::Range(1, 100000));
+  command->add_option(
+      "--fired-by", o->fired_by,
+      "File that reads 1 while the frame-sync line is active (gpio-sim's value): each edge is a frame "
+      "set, instead of the rate");
+  command->add_option("--lose-every", o->lose_every,
+                      "Leave out the last of so many, as a camera that misses a pulse");
+  command->add_option("--late-every", o->late_every, "Give the last of so many two fifths of a period late");
   command->add_option("--log", o->log, "File (CSV) for the instant each frame set was given");
   command->callback([o, &context] { context.exit_code = feed(*o); });
 }

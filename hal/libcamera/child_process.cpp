@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,18 +58,17 @@ void close_all(std::array<int, 4>& files) {
 
 }  // namespace
 
-int ChildProcess::start(const std::string& program, const std::vector<std::string>& arguments) {
+int ChildProcess::start(const std::string& program) {
   end();
   std::array<int, 4> files{-1, -1, -1, -1};  // its input: read, write; its output: read, write
-  if (::pipe2(files.data(), O_CLOEXEC) != 0 || ::pipe2(files.data() + 2, O_CLOEXEC) != 0) {
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, files.data()) != 0 ||
+      ::pipe2(files.data() + 2, O_CLOEXEC) != 0) {
     const int error = errno;
     close_all(files);
     return error;
   }
   const std::string path = beside_this_program(program);
-  std::vector<char*> words{const_cast<char*>(path.c_str())};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
+  const std::array<char*, 2> words{const_cast<char*>(path.c_str()), nullptr};
   const int error = spawn(process_, path, words.data(), files[0], files[3]);
   if (error != 0) {
     process_ = -1;
@@ -80,6 +80,13 @@ int ChildProcess::start(const std::string& program, const std::vector<std::strin
   input_ = files[1];
   output_ = files[2];
   return 0;
+}
+
+bool ChildProcess::write_line(const std::string& line) {
+  const std::string text = line + "\n";
+  // A socket, because writing to a pipe whose reader has ended is a signal.
+  return process_ > 0 &&
+         ::send(input_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
 }
 
 std::optional<std::string> ChildProcess::read_line(int timeout_ms) {

@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace omma {
 
@@ -19,7 +18,9 @@ class ChildProcess {
 
   /// The program of that name beside this one, or where the system looks. Allocates.
   /// @return 0 or the errno
-  int start(const std::string& program, const std::vector<std::string>& arguments);
+  int start(const std::string& program);
+  /// False where it has ended.
+  bool write_line(const std::string& line);
   /// The next line that it prints; none where none comes in time or it has ended. Allocates.
   std::optional<std::string> read_line(int timeout_ms);
   /// Asks it to end, and makes it end where it does not within half a second.

@@ -5,8 +5,10 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
+#include <functional>
+#include <mutex>
 #include <stdexcept>
-#include <utility>
+#include <string_view>
 
 #include "fsw/kernel/input_error.hpp"
 #include "hal/libcamera/child_process.hpp"
@@ -19,22 +21,55 @@ namespace {
 constexpr const char* kProgram = "omma-libcamera";
 constexpr int kStartMs = 10'000;  // that a camera may take to stream; sensors that load firmware take seconds
 
-void start_program(ChildProcess& process, const std::string& where, const std::vector<std::string>& words) {
-  if (const int error = process.start(kProgram, words); error != 0) {
-    throw InputError(where, 0, "driver",
-                     std::string("the program ") + kProgram +
-                         " of the driver libcamera, which is built where libcamera-dev is installed",
-                     std::strerror(error));
+/// The process of all cameras that libcamera drives for this program.
+class Service {
+ public:
+  /// The one that runs, or a new one. @throws InputError where it cannot be started
+  static std::shared_ptr<Service> get(const std::string& where) {
+    static std::mutex mutex;
+    static std::weak_ptr<Service> running;
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (auto already = running.lock(); already && !already->ended_.load()) return already;
+    auto made = std::make_shared<Service>();
+    if (const int error = made->process_.start(kProgram); error != 0) {
+      throw InputError(where, 0, "driver",
+                       std::string("the program ") + kProgram +
+                           " of the driver libcamera, which is built where libcamera-dev is installed",
+                       std::strerror(error));
+    }
+    running = made;
+    return made;
   }
-}
 
-// What is refused over there is the same sentence here.
-[[noreturn]] void pass_on(const std::string& where, const std::optional<std::string>& line) {
-  constexpr std::string_view kRefused = "refused ";
-  if (line && line->rfind(kRefused, 0) == 0) throw std::runtime_error(line->substr(kRefused.size()));
-  throw InputError(where, 0, "device", std::string("a stream from ") + kProgram,
-                   line ? *line : "none: it ended, or took longer than 10 s");
-}
+  /// One line of it for each line of the answer. @throws std::runtime_error: what it refuses, in its own
+  /// words; InputError where it ends
+  void ask(const std::string& where, const std::string& line,
+           const std::function<void(const std::string&)>& take) {
+    constexpr std::string_view kRefused = "refused ";
+    const std::lock_guard<std::mutex> lock(mutex_);
+    bool heard = process_.write_line(line);
+    while (heard) {
+      const auto answer = process_.read_line(kStartMs);
+      if (answer == "ready") return;
+      if (answer && answer->rfind(kRefused, 0) == 0)
+        throw std::runtime_error(answer->substr(kRefused.size()));
+      heard = answer.has_value();
+      if (heard) take(*answer);
+    }
+    ended_.store(true);
+    process_.end();
+    throw InputError(where, 0, "device", std::string("an answer of ") + kProgram,
+                     "none: it ended, or took longer than 10 s");
+  }
+  void ask(const std::string& where, const std::string& line) {
+    ask(where, line, [](const std::string&) {});
+  }
+
+ private:
+  ChildProcess process_;
+  std::mutex mutex_;
+  std::atomic<bool> ended_{false};
+};
 
 // The frames as they lie in the shared memory: grey already.
 CameraSetup grey_setup(const CameraSetup& setup, const std::string& name) {
@@ -66,11 +101,11 @@ class LibcameraChild final : public FrameSource {
   GreyShape shape() const override { return frames_.shape(); }
   void start() override {
     stop();
-    std::vector<std::string> words{"capture", name_};
-    for (std::string& word : words_of(setup_)) words.push_back(std::move(word));
-    start_program(process_, setup_.where, words);
+    std::string line = "open " + name_;
+    for (const std::string& word : words_of(setup_)) line += "\t" + word;
+    service_ = Service::get(setup_.where);
     try {
-      if (const auto line = process_.read_line(kStartMs); line != "ready") pass_on(setup_.where, line);
+      service_->ask(setup_.where, line);
       frames_.start();
     } catch (...) {
       stop();
@@ -79,7 +114,11 @@ class LibcameraChild final : public FrameSource {
   }
   void stop() noexcept override {
     frames_.stop();
-    process_.end();
+    try {
+      if (service_) service_->ask(setup_.where, "close " + name_);
+    } catch (const std::exception&) {  // it has ended, which closes the camera as well
+    }
+    service_.reset();
     ::unlink(path_.c_str());  // where it died it has left them
   }
   Taken take(std::byte* pixels, int timeout_ms) noexcept override { return frames_.take(pixels, timeout_ms); }
@@ -89,7 +128,7 @@ class LibcameraChild final : public FrameSource {
   std::string name_;
   std::string path_ = SharedFramesMemory::path_of(name_);
   SharedSource frames_;
-  ChildProcess process_;
+  std::shared_ptr<Service> service_;  // none while it is stopped
 };
 
 }  // namespace
@@ -99,29 +138,18 @@ std::unique_ptr<FrameSource> make_libcamera_source(const CameraSetup& setup) {
 }
 
 std::vector<LibcameraDescription> list_libcameras() {
-  ChildProcess process;
-  start_program(process, "libcamera", {"list"});
   std::vector<LibcameraDescription> cameras;
-  for (;;) {
-    const auto line = process.read_line(kStartMs);
-    if (line == "ready") return cameras;
-    const std::size_t space = line ? line->find(' ') : std::string::npos;
-    if (space == std::string::npos) pass_on("libcamera", line);
-    const std::string word = line->substr(0, space);
-    const std::string value = line->substr(space + 1);
-    if (word == "camera")
-      cameras.push_back({value, {}, {}, {}});
-    else if (cameras.empty())
-      pass_on("libcamera", line);
-    else if (word == "model")
-      cameras.back().model = value;
-    else if (word == "format")
-      cameras.back().formats.push_back(value);
-    else if (word == "control")
-      cameras.back().controls.push_back(value);
-    else
-      pass_on("libcamera", line);
-  }
+  Service::get("libcamera")->ask("libcamera", "list", [&](const std::string& line) {
+    const std::size_t space = line.find(' ');
+    const std::string word = line.substr(0, space);
+    const std::string value = space == std::string::npos ? "" : line.substr(space + 1);
+    if (word == "camera") cameras.push_back({value, {}, {}, {}});
+    if (cameras.empty()) return;
+    if (word == "model") cameras.back().model = value;
+    if (word == "format") cameras.back().formats.push_back(value);
+    if (word == "control") cameras.back().controls.push_back(value);
+  });
+  return cameras;
 }
 
 }  // namespace omma

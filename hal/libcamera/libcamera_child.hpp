@@ -21,7 +21,8 @@ struct LibcameraDescription {
   std::vector<std::string> controls;  ///< "AnalogueGain: [1.0..16.0]"
 };
 
-/// A source that is not started yet. Its `start` starts the process and waits until the camera streams.
+/// A source that is not started yet. Its `start` starts the process where none runs, and waits until the
+/// camera streams.
 /// @throws InputError: a setup it cannot use; from `start` what the process says, or that there is no such
 /// program (libcamera was not installed when this was built)
 std::unique_ptr<FrameSource> make_libcamera_source(const CameraSetup& setup);

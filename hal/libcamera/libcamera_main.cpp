@@ -1,15 +1,19 @@
-// The program omma-libcamera, which libcamera_child.cpp starts: `list` prints the cameras, `capture NAME
-// key=value...` writes a camera's frames into shared memory until its standard input ends. A process of its
-// own: what libcamera does when a camera is unplugged ends this one alone.
-#include <poll.h>
-#include <unistd.h>
-
+// The program omma-libcamera, which libcamera_child.cpp starts, one for all cameras of a program: libcamera
+// does not let two processes share the cameras of one pipeline. A process of its own: what libcamera does
+// when a camera is unplugged ends this one alone. Until its standard input ends it takes there, a line each,
+// with its answer a line as well,
+//   list           "camera ID", "model ...", "format ...", "control ..." lines, then "ready"
+//   open NAME\tkey=value\t...    frames of a camera into shared memory of that name: "ready", or "refused"
+//   and why close NAME     "ready"
+#include <atomic>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <span>
+#include <iostream>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "fsw/kernel/real_time.hpp"
@@ -29,51 +33,96 @@ void say(const std::string& line) {
   std::fflush(stdout);
 }
 
-bool is_wanted() {
-  pollfd input{STDIN_FILENO, POLLIN, 0};
-  return ::poll(&input, 1, 0) == 0;
-}
+/// A camera that streams into shared memory until it is closed or gone; the memory's writer ends with it.
+class Capture {
+ public:
+  Capture(const std::string& name, const CameraSetup& setup) : source_(setup) {
+    source_.start();
+    frames_ = std::make_unique<SharedFramesWriter>(name, source_.shape());
+    pixels_.resize(source_.shape().bytes());
+    thread_ = std::thread([this] { run(); });
+  }
+  ~Capture() {
+    ends_.store(true);
+    thread_.join();
+    source_.stop();
+  }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
 
-int list() {
+ private:
+  void run() {
+    while (!ends_.load()) {
+      const Taken taken = source_.take(pixels_.data(), kPollMs);
+      if (taken.status == TakeStatus::kGone) break;
+      if (taken.status == TakeStatus::kSilence) continue;
+      frames_->write(taken.status == TakeStatus::kFrame ? pixels_.data() : nullptr, taken.time_ns,
+                     taken.sequence);
+    }
+    frames_.reset();
+  }
+
+  LibcameraSource source_;
+  std::unique_ptr<SharedFramesWriter> frames_;
+  std::vector<std::byte> pixels_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+void list() {
   for (const LibcameraDescription& camera : describe_libcameras()) {
     say("camera " + camera.id);
     say("model " + camera.model);
     for (const std::string& format : camera.formats) say("format " + format);
     for (const std::string& control : camera.controls) say("control " + control);
   }
-  say("ready");
-  return 0;
 }
 
-int capture(const std::string& name, std::span<const char* const> words) {
-  // First of all, so that libcamera's threads have it too; without the right to it, it is an ordinary
-  // program.
-  make_thread_real_time("libcamera", kPriority);
-  LibcameraSource source(setup_of_words(words));
-  source.start();
-  SharedFramesWriter frames(name, source.shape());
-  std::vector<std::byte> pixels(source.shape().bytes());
-  say("ready");
-  while (is_wanted()) {
-    const Taken taken = source.take(pixels.data(), kPollMs);
-    if (taken.status == TakeStatus::kGone) std::_Exit(3);  // libcamera cannot stop what is gone
-    if (taken.status == TakeStatus::kSilence) continue;
-    frames.write(taken.status == TakeStatus::kFrame ? pixels.data() : nullptr, taken.time_ns, taken.sequence);
+class Captures {
+ public:
+  void answer(const std::string& line) {
+    const std::vector<std::string> words = split(line, '\t');
+    const std::vector<std::string> verb = split(words.front(), ' ');
+    if (verb.front() == "list") {
+      list();
+    } else if (verb.front() == "open" && verb.size() == 2) {
+      open_.erase(verb[1]);
+      open_.emplace(verb[1],
+                    std::make_unique<Capture>(verb[1], setup_of_words({words.begin() + 1, words.end()})));
+    } else if (verb.front() == "close" && verb.size() == 2) {
+      open_.erase(verb[1]);
+    } else {
+      throw std::runtime_error("omma-libcamera: list, open or close expected, found " + words.front());
+    }
   }
-  return 0;
-}
+
+ private:
+  static std::vector<std::string> split(const std::string& line, char by) {
+    std::vector<std::string> words;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+      end = line.find(by, begin);
+      words.push_back(line.substr(begin, end == std::string::npos ? end : end - begin));
+    }
+    return words;
+  }
+
+  std::map<std::string, std::unique_ptr<Capture>> open_;
+};
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const std::span<const char* const> words(argv, static_cast<std::size_t>(argc));
-  try {
-    if (words.size() == 2 && std::string_view(words[1]) == "list") return list();
-    if (words.size() > 2 && std::string_view(words[1]) == "capture")
-      return capture(words[2], words.subspan(3));
-    std::fputs("usage: omma-libcamera list | capture NAME key=value...\n", stderr);
-  } catch (const std::exception& error) {
-    say(std::string("refused ") + error.what());
+int main() {
+  // First of all, so that libcamera's threads have it too; without the right to it, it is an ordinary
+  // program.
+  make_thread_real_time("libcamera", kPriority);
+  Captures captures;
+  for (std::string line; std::getline(std::cin, line);) {
+    try {
+      captures.answer(line);
+      say("ready");
+    } catch (const std::exception& error) {
+      say(std::string("refused ") + error.what());
+    }
   }
-  return 2;
 }

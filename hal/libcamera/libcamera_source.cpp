@@ -84,6 +84,10 @@ struct LibcameraSource::Stream {
     arrived.notify_one();
   }
 
+  bool is_gone() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return gone;
+  }
   void open(const CameraSetup& setup, const PixelLayout& layout, const GreyShape& shape);
   void configure(const CameraSetup& setup, const PixelLayout& layout, const GreyShape& shape);
   void map(const CameraSetup& setup);
@@ -207,12 +211,17 @@ void LibcameraSource::start() {
 }
 
 void LibcameraSource::stop() noexcept {
+  // libcamera 0.0.3 ends the program where a camera that is gone is stopped: it is left as it is instead.
+  if (stream_ && stream_->is_gone()) {
+    [[maybe_unused]] Stream* const left = stream_.release();
+    return;
+  }
   stream_.reset();
 }
 
 Taken LibcameraSource::take(std::byte* pixels, int timeout_ms) noexcept {
   libcamera::Request* const request = stream_->wait(timeout_ms);
-  if (request == nullptr) return {.status = stream_->gone ? TakeStatus::kGone : TakeStatus::kSilence};
+  if (request == nullptr) return {.status = stream_->is_gone() ? TakeStatus::kGone : TakeStatus::kSilence};
   const libcamera::FrameBuffer* const buffer = request->buffers().begin()->second;
   const libcamera::FrameMetadata& about = buffer->metadata();
   Taken taken{TakeStatus::kDamaged, static_cast<TimeNs>(about.timestamp), about.sequence};

@@ -72,9 +72,9 @@ std::vector<std::string> words_of(const CameraSetup& setup) {
   return words;
 }
 
-CameraSetup setup_of_words(std::span<const char* const> words) {
+CameraSetup setup_of_words(const std::vector<std::string>& words) {
   CameraSetup setup;
-  for (const char* const word : words) read_word(word, setup);
+  for (const std::string& word : words) read_word(word, setup);
   return setup;
 }
 

@@ -1,7 +1,6 @@
-// A camera's setup as a program's arguments, key=value each, and back.
+// A camera's setup as words, key=value each, and back.
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,6 @@ namespace omma {
 
 std::vector<std::string> words_of(const CameraSetup& setup);
 /// @throws InputError: a word that is none of a setup's
-CameraSetup setup_of_words(std::span<const char* const> words);
+CameraSetup setup_of_words(const std::vector<std::string>& words);
 
 }  // namespace omma

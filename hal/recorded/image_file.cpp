@@ -42,8 +42,7 @@ void read_bytes(const std::filesystem::path& file, std::vector<std::byte>& bytes
   if (!stream) throw InputError(file.string(), 0, "file", "a readable file", "one that cannot be read");
 }
 
-Image image_from_bytes(std::span<const std::byte> bytes, const std::string& file) {
-  Image image;
+void read_image_bytes(std::span<const std::byte> bytes, const std::string& file, Image& image) {
   if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) {
     read_png(bytes, file, image);
   } else if (starts_with(bytes, "\xff\xd8\xff")) {
@@ -54,7 +53,18 @@ Image image_from_bytes(std::span<const std::byte> bytes, const std::string& file
     throw InputError(file, 0, "file", "a PNG, JPEG or FITS image",
                      bytes.empty() ? "an empty file" : "another kind of file");
   }
+}
+
+Image image_from_bytes(std::span<const std::byte> bytes, const std::string& file) {
+  Image image;
+  read_image_bytes(bytes, file, image);
   return image;
+}
+
+ImageSize read_image_size(const std::filesystem::path& file) {
+  if (file.extension() == ".png") return read_png_size(file);
+  const Image image = read_image(file);
+  return {image.width, image.height, 8 * image.bytes_per_pixel()};
 }
 
 Image read_image(const std::filesystem::path& file) {

@@ -44,6 +44,8 @@ inline constexpr int kImageFileSide = 16384;
 Image read_image(const std::filesystem::path& file);
 /// The same from the bytes of a file; `file` is only for messages.
 Image image_from_bytes(std::span<const std::byte> bytes, const std::string& file);
+/// The same into `image`, whose storage is used again where it is large enough.
+void read_image_bytes(std::span<const std::byte> bytes, const std::string& file, Image& image);
 
 // One format each, from the file's bytes; `file` is only for messages. The result goes into `image`, whose
 // storage is used again where it is large enough.
@@ -61,6 +63,8 @@ struct ImageSize {
 };
 /// From the header of a PNG file alone; InputError where there is none.
 ImageSize read_png_size(const std::filesystem::path& file);
+/// The same of any kind: others than PNG are read whole.
+ImageSize read_image_size(const std::filesystem::path& file);
 
 enum class PngEffort : std::uint8_t {
   kStored,  ///< not compressed: as fast as the disk

@@ -1,19 +1,20 @@
-// Plays a recording as a camera: <top>/<camera>/<camera>_<n>.png, where n is the number of the trigger
-// (leading zeros or not). A thread of its own reads ahead, because decoding allocates and takes milliseconds;
-// `grab` only takes what lies ready.
+// Plays a recording as a camera: the frame of number n is that of the trigger n. A thread of its own reads
+// ahead, because decoding allocates and takes milliseconds; `grab` only takes what lies ready.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <thread>
 #include <vector>
 
 #include "hal/camera.hpp"
-#include "hal/recorded/image_file.hpp"
+#include "hal/recorded/frame_folder.hpp"
+#include "hal/recorded/frame_store.hpp"
 
 namespace omma {
 
@@ -36,20 +37,14 @@ struct RecordedCameraOptions {
 
 class RecordedCamera final : public CameraDriver {
  public:
-  struct File {
-    std::uint64_t number = 0;
-    std::filesystem::path path;
-  };
-  /// The frames of one camera's folder, by rising number.
-  /// @throws InputError: no folder, no frame in it, two files with one number
-  static std::vector<File> find_files(const std::filesystem::path& folder, const std::string& camera);
-
   /// Looks at the header of every frame, sizes the buffers and starts reading ahead.
-  /// @throws InputError: no folder, no frame in it, two files with one number, a file that is no PNG, a frame
-  /// of
-  ///         another size or depth than the options or the first frame
+  /// @throws InputError: a frame that is not readable, or of another size or depth than the options or the
+  /// first
+  RecordedCamera(std::unique_ptr<FrameStore> store, const RecordedCameraOptions& options);
+  /// The frames of a folder, <top>/<camera>. @throws InputError also as `find_frame_files`
   RecordedCamera(const std::filesystem::path& top, const std::string& camera,
-                 const RecordedCameraOptions& options);
+                 const RecordedCameraOptions& options)
+      : RecordedCamera(std::make_unique<FileFrames>(top / camera, camera), options) {}
   ~RecordedCamera() override;
   RecordedCamera(const RecordedCamera&) = delete;
   RecordedCamera& operator=(const RecordedCamera&) = delete;
@@ -62,20 +57,19 @@ class RecordedCamera final : public CameraDriver {
   /// no wait; the only call to the system wakes the reading thread.
   Frame grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept override;
 
-  /// The largest frame number of a recording. @throws InputError as the constructor does for names
-  static std::uint64_t last_number_in(const std::filesystem::path& top, const std::string& camera) {
-    return find_files(top / camera, camera).back().number;
-  }
-
-  std::uint64_t first_number() const noexcept { return files_.front().number; }
-  std::uint64_t last_number() const noexcept override { return files_.back().number; }
-  std::size_t frames() const noexcept { return files_.size(); }
+  std::uint64_t first_number() const noexcept { return frames_.front().number; }
+  std::uint64_t last_number() const noexcept override { return frames_.back().number; }
+  std::size_t frames() const noexcept { return frames_.size(); }
   /// Frames so far whose file could not be decoded (a torn file, a disk error).
   std::uint32_t unreadable() const noexcept { return unreadable_.load(std::memory_order_relaxed); }
 
  private:
   static constexpr std::uint32_t kSlots = 4;  // frames read ahead, the one in use included
 
+  struct Recorded {
+    std::uint64_t number = 0;
+    std::size_t index = 0;  // in the store
+  };
   struct Slot {
     Image image;
     std::uint64_t number = 0;
@@ -83,12 +77,13 @@ class RecordedCamera final : public CameraDriver {
   };
 
   void check_headers(const RecordedCameraOptions& options) const;
-  void repeat(const RecordedCameraOptions& options);
+  void list_frames(const RecordedCameraOptions& options);
   void read_ahead();
-  void fill(Slot& slot, const File& file, std::vector<std::byte>& bytes);
+  void fill(Slot& slot, const Recorded& frame);
   bool wait_for_free_slot(std::uint32_t filled);
 
-  std::vector<File> files_;  // by rising number
+  std::unique_ptr<FrameStore> store_;  // the reading thread's, once it runs
+  std::vector<Recorded> frames_;       // by rising number
   Playback playback_;
   std::uint16_t white_level_;
   // A ring with one writer (the reading thread counts filled_ up) and one reader (grab counts released_ up).

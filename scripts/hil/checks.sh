@@ -4,7 +4,7 @@ failed=0
 check() { # STATUS WHAT
   if [ "$1" = 0 ]; then echo "PASS  $2"; else
     echo "FAIL  $2 (status $1)"
-    tail -2 /tmp/said
+    tail -2 /tmp/said 2> /dev/null
     failed=1
   fi
 }

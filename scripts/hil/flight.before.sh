@@ -1,4 +1,4 @@
 #!/usr/bin/env bash
-# The demo's frames, rendered once.
+# The demo's first frames, rendered once.
 cd "$(dirname "$0")/../.."
-[ -f build/hil/frames/truth.jsonl ] || build/release/bin/omma simulate config/demo_scenario.toml --out build/hil/frames
+[ -f build/hil/frames/truth.jsonl ] || build/release/bin/omma simulate config/demo_scenario.toml --frames 64 --out build/hil/frames

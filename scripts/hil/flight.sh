@@ -1,13 +1,17 @@
 #!/usr/bin/env bash
-# scripts/hil/flight.sh OUTPUT: runs inside the machine (machine.sh). The demo's frames are fed into three video
-# devices of the kernel at 10 Hz; the flight program takes them there and publishes over DDS; a second network
-# namespace listens on the ground's end of a cable.
+# scripts/hil/flight.sh OUTPUT: runs inside the machine (machine.sh). The flight program fires the cameras by a GPIO line of
+# the kernel at 10 Hz; at each edge the demo's frames are fed into three video devices of the kernel, where the flight
+# program takes them; it publishes over DDS, and a second network namespace listens on the ground's end of a cable. Then
+# the same with cameras that miss pulses and are late, which has to be told.
 set -uo pipefail
 source scripts/hil/checks.sh
+source scripts/hil/sync_line.sh
 OUTPUT=$1
 BIN=build/release/bin
+SETS=$([ "${HIL_SHORT:-}" ] && echo 30 || echo 60)
 FRAMES=build/hil/frames
 modprobe v4l2loopback devices=3 video_nr=10,11,12 card_label=hdr1,cam0,cam2 max_buffers=4 || exit 1
+sync_line hil-sync
 
 ip netns add ground
 ip link add space0 type veth peer name ground0 netns ground
@@ -19,18 +23,39 @@ ip -n ground link set lo up
 dds() { echo "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"$1\"/></Interfaces></General></Domain></CycloneDDS>"; }
 
 # A camera is a machine of its own: nothing on board holds it up.
-chrt -f 80 $BIN/omma feed $FRAMES --camera hdr1=/dev/video10 --camera cam0=/dev/video11 --camera cam2=/dev/video12 \
-  --rate 10 --frames 100 --log "$OUTPUT/fed.csv" > "$OUTPUT/feed.txt" 2>&1 &
-FEED=$!
+feed() { # LOG OPTIONS...
+  chrt -f 80 $BIN/omma feed $FRAMES --camera hdr1=/dev/video10 --camera cam0=/dev/video11 --camera cam2=/dev/video12 \
+    --rate 10 --fired-by "$SYNC_VALUE" --log "$@" > "$OUTPUT/feed.txt" 2>&1 &
+  FEED=$!
+  until [ -s "$1" ] || ! kill -0 $FEED 2> /dev/null; do sleep 0.1; done
+}
+end_feed() {
+  kill $FEED 2> /dev/null
+  wait $FEED
+  cat "$OUTPUT/feed.txt"
+}
+
+feed "$OUTPUT/fed.csv"
 CYCLONEDDS_URI=$(dds ground0) ip netns exec ground $BIN/omma record "$OUTPUT/heard.mcap" --until-idle 5 --seconds 60 \
   > "$OUTPUT/record.txt" 2>&1 &
 RECORD=$!
-until [ -s "$OUTPUT/fed.csv" ] || ! kill -0 $FEED 2>/dev/null; do sleep 0.1; done
-CYCLONEDDS_URI=$(dds space0) $BIN/omma-fsw config/hil.toml --log "$OUTPUT/flown.mcap" --frame-sets "${FRAME_SETS:-60}" \
+CYCLONEDDS_URI=$(dds space0) $BIN/omma-fsw config/hil.toml --log "$OUTPUT/flown.mcap" --frame-sets "$SETS" \
   > "$OUTPUT/flight.txt" 2>&1
-status=$?
+check $? "the flight program ended as it should"
 wait $RECORD
-kill $FEED 2>/dev/null
-wait $FEED
-cat "$OUTPUT/feed.txt" "$OUTPUT/flight.txt" "$OUTPUT/record.txt"
-exit $status
+end_feed
+cat "$OUTPUT/flight.txt" "$OUTPUT/record.txt"
+rm -f "$OUTPUT/feed.txt"
+
+# Of 30 pulses, number 10, 20 and 30 are missed by all cameras; frames of number 13 and 26 come 40 ms late.
+feed "$OUTPUT/fed_badly.csv" --lose-every 10 --late-every 13
+$BIN/omma-fsw config/hil.toml --no-dds --log "$OUTPUT/badly.mcap" --frame-sets 31 > "$OUTPUT/badly.txt" 2>&1
+check $? "the flight program ended as it should, with cameras that miss pulses"
+end_feed
+$BIN/omma export "$OUTPUT/badly.mcap" --out "$OUTPUT/csv" --topic event > /dev/null
+told() { grep -c "$1" "$OUTPUT/csv/event.csv"; }
+[ "$(told frame_of_no_trigger)" = 6 ]
+check $? "$(told frame_of_no_trigger) of 6 late frames named"
+[ "$(told triggers_without_frame)" -ge 9 ]
+check $? "$(told triggers_without_frame) times pulses without a frame named, of 3 missed and 2 late by 3 cameras"
+exit $failed

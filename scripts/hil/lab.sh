@@ -7,23 +7,18 @@ OUTPUT=$1
 BIN=build/release/bin
 SETS=${LAB_FRAME_SETS:-24}
 T=/sys/kernel/tracing
-failed=0
-check() { if [ "$1" = 0 ]; then echo "PASS  $2"; else echo "FAIL  $2"; failed=1; fi; }
 [ -d $T/events ] || mount -t tracefs none $T
 
-modprobe gpio-sim || exit 1
-CHIP=/sys/kernel/config/gpio-sim/lab
-mkdir -p $CHIP/bank0/line3
-echo 8 > $CHIP/bank0/num_lines
-echo frame_sync > $CHIP/bank0/line3/name
-echo 1 > $CHIP/live
+source scripts/hil/checks.sh
+source scripts/hil/sync_line.sh
+sync_line lab-sync
 modprobe dummy_hcd && modprobe cdc_acm &&
   modprobe g_serial idVendor=0x1ffb idProduct=0x008a iManufacturer="Pololu Corporation" || exit 1
 for _ in $(seq 100); do [ -e /dev/ttyACM0 ] && break; sleep 0.05; done
 
 cp -r config "$OUTPUT/config"
 sed -i -e '/^\[trigger\]/,/^\[/ s/^driver = "simulated"/driver = "gpiod"/' \
-  -e "s/^chip = .*/chip = \"$(cat $CHIP/bank0/chip_name)\"/" \
+  -e 's/^chip = .*/chip = "lab-sync"/' \
   -e '/^\[motion\]/,/^\[/ s/^driver = "simulated"/driver = "maestro"/' "$OUTPUT/config/lab.toml"
 $BIN/omma servo-board --device /dev/ttyGS0 --every 2 > "$OUTPUT/board.txt" 2>&1 &
 BOARD=$!

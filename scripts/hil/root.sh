@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 FOLDER=$(realpath -m "${1:-build/hil}")
 RELEASE=$(cat "$FOLDER/release")
 PROJECT=$PWD
-TOOLS="bash env cat chmod chrt cp cut date grep head ip kmod ln ls mkdir modprobe mount mv awk ps readlink rm rmmod sed seq sh sleep sort sync tail
+TOOLS="bash env cat dmesg chmod chrt cp cut date grep head ip kmod ln ls mkdir modprobe mount mv awk ps readlink rm rmmod sed seq sh sleep sort sync tail
   timeout touch tr umount v4l2-ctl wc"
 DRIVERS="virtio_pci virtio_console 9pnet_virtio 9p virtio_rng vivid v4l2loopback vimc gpio-sim dummy_hcd cdc_acm g_serial veth softdog"
 
@@ -30,6 +30,9 @@ shopt -s nullglob
 libcamera=(/usr/lib/*/libcamera/*.so /usr/lib/*/libcamera/*_proxy)
 copied() { for file; do [ ! -e "$file" ] || cp -L --parents "$file" "$I"; done; }
 copied "${programs[@]}" "${libcamera[@]}" /lib64/ld-linux-x86-64.so.2
+cp "$FOLDER/root/bin/udevadm" "$I/usr/bin"
+ln -s udevadm "$I/usr/bin/systemd-udevd"
+programs+=("$FOLDER/root/bin/udevadm")
 { ldd "${programs[@]}" "${libcamera[@]}" 2>/dev/null || true; } | awk '/=> \// { print $3 }' | sort -u | while read -r library; do copied "$library"; done
 [ ! -d /usr/share/libcamera ] || cp -r --parents /usr/share/libcamera "$I"
 cp -r --parents scripts config "$I$PROJECT"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# scripts/hil/run.sh [short] [drivers|libcamera|lines|lab|flight]...: `./test hil`. Makes the machine where there is none, then
+# scripts/hil/run.sh [short] [drivers|libcamera|lines|watchdog|lab|flight]...: `./test hil`. Makes the machine where there is none, then
 # every part of the test in a machine of its own; short: fewer frames, for continuous integration. A part NAME is NAME.sh, which
 # runs inside; NAME.before.sh, where there is one, makes what it needs, and NAME.after.sh judges on this side what it wrote
 # into build/hil/NAME. Skipped with a sentence where it cannot be done.
@@ -15,7 +15,7 @@ if [ "${1:-}" = short ]; then
   export HIL_SHORT=short
   shift
 fi
-[ $# -gt 0 ] || set -- drivers libcamera lines lab flight
+[ $# -gt 0 ] || set -- drivers libcamera lines watchdog lab flight
 for part; do
   OUTPUT=$PWD/build/hil/$part
   rm -rf "$OUTPUT"
@@ -23,7 +23,7 @@ for part; do
   [ ! -x "scripts/hil/$part.before.sh" ] || "scripts/hil/$part.before.sh" "$OUTPUT" || failed=1
   begin=$SECONDS
   frames=()
-  case $part in lab | flight) frames=(-i build/hil/frames) ;; esac
+  case $part in watchdog | lab | flight) frames=(-i build/hil/frames) ;; esac
   scripts/hil/machine.sh -t "${HIL_SECONDS:-900}" -w "$OUTPUT" "${frames[@]}" -- \
     env HIL_SHORT="${HIL_SHORT:-}" "scripts/hil/$part.sh" "$OUTPUT"
   status=$?

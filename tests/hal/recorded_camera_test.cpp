@@ -72,6 +72,29 @@ int grey_of(const Frame& frame) {
   return std::to_integer<int>(frame.image.data[0]);
 }
 
+TEST_F(Recording, FitsFilesAreFramesBesidePng) {
+  add(1, "1");
+  std::string fits;
+  for (const char* const card :
+       {"SIMPLE  =                    T", "BITPIX  =                    8", "NAXIS   =                    2",
+        "NAXIS1  =                   64", "NAXIS2  =                   48", "END"}) {
+    std::string line = card;
+    line.resize(80, ' ');
+    fits += line;
+  }
+  fits.resize(2880, ' ');
+  fits.append(64 * 48, '\2');
+  fits.resize(2 * 2880 + 2880, '\0');
+  std::ofstream(top_ / "cam0" / "cam0_2.fits", std::ios::binary) << fits;
+  RecordedCamera camera(top_, "cam0", {});
+  ASSERT_EQ(camera.frames(), 2U);
+  for (const std::uint64_t n : {1U, 2U}) {
+    const Frame frame = camera.grab(n, 0);
+    ASSERT_EQ(frame.status, FrameStatus::kFresh);
+    EXPECT_EQ(std::to_integer<std::uint64_t>(frame.image.data[5]), n);
+  }
+}
+
 TEST_F(Recording, FramesComeByTheirNumberAndGapsAreMissing) {
   add(3, "0003");
   add(4, "4");

@@ -72,6 +72,14 @@ std::size_t lost_or_doubled(const Renumbering& numbers) {
   return wrong;
 }
 
+// The first frame set fires the cameras, whose frames the second one collects.
+void leave_out_what_fired_first(FlightLog& log) {
+  const bool blind = !log.frame_sets.empty() &&
+                     std::all_of(log.frame_sets[0].cameras.begin(), log.frame_sets[0].cameras.end(),
+                                 [](const auto& camera) { return camera.dots_found == 0; });
+  if (blind) log.frame_sets.erase(log.frame_sets.begin());
+}
+
 std::size_t without_a_camera(const FlightLog& log) {
   return static_cast<std::size_t>(
       std::count_if(log.frame_sets.begin(), log.frame_sets.end(), [](const auto& set) {
@@ -86,6 +94,7 @@ bool judge(const std::string& recording, const std::filesystem::path& frames, co
   std::vector<TruthFrame> truth =
       read_truth(frames / "truth.jsonl", static_cast<int>(mission.rig.cameras.size()));
   FlightLog log = read_flight_log(recording);
+  leave_out_what_fired_first(log);
   const std::vector<Fed> fed = read_fed(fed_file);
   const Renumbering numbers(fed, log);
   if (numbers.all().size() < 2)

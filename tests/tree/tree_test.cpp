@@ -117,6 +117,8 @@ bool may_include(const std::string& file, const std::string& target) {
   if (from == "fsw/app/") return to != "sim/" && to != "ground/";
   if (to == "fsw/app/") return false;
   if (from == "hal/sources/") return starts(to, "hal/");  // the one that knows all live drivers
+  // libcamera's frames come from another process.
+  if (from == "hal/libcamera/" && to == "hal/shared_frames/") return true;
   if (starts(from, "hal/"))
     return is_hal_interface(target) || to == "hal/live/" || target == "fsw/services/text_input.hpp";
   if (to == "fsw/services/") return true;

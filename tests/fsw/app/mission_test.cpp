@@ -67,7 +67,7 @@ TEST_F(MissionFile, MistakesInItsMotionAreNamed) {
     return said;
   };
   EXPECT_THAT(refusal("\"simulated\"", "\"dynamixel\""),
-              HasSubstr("motion.driver: expected \"simulated\" or \"maestro\""));
+              HasSubstr("motion.driver: expected \"recorded\", \"simulated\" or \"maestro\""));
   EXPECT_THAT(refusal("\"simulated\"", "\"maestro\""), HasSubstr("motion.device: expected the serial line"));
   EXPECT_THAT(refusal("rate_hz = 200", "rate_hz = 125"), HasSubstr("a whole multiple of frame_rate_hz"));
   EXPECT_THAT(refusal("rate_hz = 200", "rate_hz = 5"), HasSubstr("a whole multiple of frame_rate_hz"));

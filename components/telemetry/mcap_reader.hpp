@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ struct MessageView {
   std::int64_t log_time_ns = 0;
   std::int64_t publish_time_ns = 0;
   std::span<const std::byte> data;
+  std::size_t chunk = 0;   ///< where it lies, for Reader::message_at
+  std::size_t offset = 0;  ///< in the unpacked chunk
 };
 
 class Reader {
@@ -53,6 +56,9 @@ class Reader {
   /// @param wanted  asked once per channel: chunks without a wanted channel are not even unpacked
   void for_each_message(const std::function<bool(const Channel&)>& wanted,
                         const std::function<bool(const MessageView&)>& take);
+  /// A message seen before, by its `chunk` and `offset`; none where the file does not hold it any more. Its
+  /// chunk is unpacked, unless it was the last one: cheap in the order of the file.
+  std::optional<MessageView> message_at(std::size_t chunk, std::size_t offset);
 
  private:
   struct Chunk {
@@ -79,7 +85,8 @@ class Reader {
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
   std::vector<Chunk> chunks_;
-  std::vector<std::byte> records_;  // of the chunk being read
+  std::vector<std::byte> records_;       // of the chunk being read
+  std::optional<std::size_t> unpacked_;  // which one that is
   std::string damage_;
 };
 

@@ -1,4 +1,4 @@
-#include "ground/mcap/mcap_reader.hpp"
+#include "components/telemetry/mcap_reader.hpp"
 
 #include <zstd.h>
 
@@ -65,6 +65,17 @@ std::optional<RecordView> next_record(Cursor& cursor) {
   record.content = cursor.take(cursor.number<std::uint64_t>());
   if (!cursor.good()) return std::nullopt;
   return record;
+}
+
+MessageView message_of(std::span<const std::byte> content) {
+  Cursor fields(content);
+  MessageView message;
+  message.channel = fields.number<std::uint16_t>();
+  message.sequence = fields.number<std::uint32_t>();
+  message.log_time_ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
+  message.publish_time_ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
+  message.data = fields.take(fields.left());
+  return message;
 }
 
 bool is(std::uint8_t opcode, Opcode wanted) {
@@ -208,6 +219,7 @@ void Reader::walk_records() {
 }
 
 bool Reader::unpack(const Chunk& chunk) {
+  unpacked_.reset();
   if (!chunk.loose.empty()) {
     records_ = chunk.loose;
     return true;
@@ -252,6 +264,7 @@ void Reader::for_each_message(const std::function<bool(const Channel&)>& wanted,
     }
     Cursor cursor(records_);
     while (cursor.left() > 0) {
+      const std::size_t offset = records_.size() - cursor.left();
       const std::optional<RecordView> record = next_record(cursor);
       if (!record || !add_definition(record->opcode, record->content)) {
         note_damage("a record in the chunk at byte " + std::to_string(chunk.offset - kRecordHeadBytes) +
@@ -259,16 +272,28 @@ void Reader::for_each_message(const std::function<bool(const Channel&)>& wanted,
         break;
       }
       if (!is(record->opcode, Opcode::kMessage) || record->content.size() < kSmallestMessage) continue;
-      Cursor fields(record->content);
-      MessageView message;
-      message.channel = fields.number<std::uint16_t>();
-      message.sequence = fields.number<std::uint32_t>();
-      message.log_time_ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
-      message.publish_time_ns = static_cast<std::int64_t>(fields.number<std::uint64_t>());
-      message.data = fields.take(fields.left());
+      MessageView message = message_of(record->content);
+      message.chunk = static_cast<std::size_t>(&chunk - chunks_.data());
+      message.offset = offset;
       if (is_wanted(message.channel) && !take(message)) return;
     }
   }
+}
+
+std::optional<MessageView> Reader::message_at(std::size_t chunk, std::size_t offset) {
+  if (unpacked_ != chunk) {
+    if (chunk >= chunks_.size() || !unpack(chunks_[chunk])) return std::nullopt;
+    unpacked_ = chunk;
+  }
+  if (offset >= records_.size()) return std::nullopt;
+  Cursor cursor(std::span<const std::byte>(records_).subspan(offset));
+  const std::optional<RecordView> record = next_record(cursor);
+  if (!record || !is(record->opcode, Opcode::kMessage) || record->content.size() < kSmallestMessage)
+    return std::nullopt;
+  MessageView message = message_of(record->content);
+  message.chunk = chunk;
+  message.offset = offset;
+  return message;
 }
 
 }  // namespace omma::mcap

@@ -123,7 +123,7 @@ ChainRun fly_recording(const std::filesystem::path& frames, const std::filesyste
   run.frames = frames;
   for (const RigCamera& camera : run.mission.rig.cameras) {  // told before a minute of flight
     const std::string name(camera.name.view());
-    RecordedCamera::find_files(frames / name, name);
+    find_frame_files(frames / name, name);
   }
   fly(run, mission, folder);
   if (std::filesystem::exists(frames / "truth.jsonl")) judge_by_truth_file(run);

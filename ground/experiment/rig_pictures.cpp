@@ -14,7 +14,7 @@ std::vector<RigPicture> rig_pictures(const ChainRun& run) {
   const auto& [frame, cameras] = *middle;
   for (std::size_t c = 0; c < run.mission.rig.cameras.size() && c < cameras.size(); ++c) {
     const std::string camera(run.mission.rig.cameras[c].name.view());
-    for (const RecordedCamera::File& file : RecordedCamera::find_files(run.frames / camera, camera)) {
+    for (const FrameFile& file : find_frame_files(run.frames / camera, camera)) {
       if (file.number == frame)
         pictures.push_back({camera, camera_picture(file.path, run.mission, cameras[c], camera, frame).png()});
     }

@@ -1,6 +1,6 @@
 // Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes. `--trials N`
 // (200; 10000 for the full table), `--false-skies N` skies of false dots alone (as many; 100000), `--row K`
-// one row only (18: the false skies). A wrong answer makes the exit code 1.
+// one row only (19: the false skies). A wrong answer makes the exit code 1.
 #include <cstdio>
 #include <memory>
 #include <numbers>

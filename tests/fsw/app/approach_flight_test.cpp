@@ -61,11 +61,11 @@ OfOneMode& add(OfOneMode& mode, const ApproachEstimate& estimate, const Eigen::V
 }
 
 TEST(Approach, GoesThroughAllRangeModesWithAnHonestUncertainty) {
-  const sim::Scenario scenario = sim::read_scenario_file(config("approach_scenario.toml"));
+  const sim::Scenario scenario = sim::read_scenario_file(config("scenarios/range_modes_scenario.toml"));
   const std::filesystem::path frames =
       std::filesystem::path(OMMA_BINARY_DIR) / "tests" / ("approach_frames_" + std::to_string(getpid()));
   ground::render_recording(scenario, frames, 2);
-  Mission mission = read_mission(config("approach.toml"));
+  Mission mission = read_mission(config("scenarios/range_modes.toml"));
   mission.recording = frames;
   const auto topology = std::make_unique<Topology>(mission, RunOptions{.lockstep = true, .workers = 1});
   const std::uint64_t frame_sets = topology->frame_sets();

@@ -11,17 +11,17 @@ using ::testing::HasSubstr;
 
 TEST_F(MissionFile, SaysHowALightIsFollowedOrWhatIsWrongWithIt) {
   auto refusal = [&](const std::string& from, const std::string& to) {
-    replace("approach.toml", from, to);
+    replace("scenarios/range_modes.toml", from, to);
     std::string said = "nothing";
     try {
-      read_mission(folder_ / "approach.toml");
+      read_mission(folder_ / "scenarios/range_modes.toml");
     } catch (const InputError& error) {
       said = error.what();
     }
-    replace("approach.toml", to, from);
+    replace("scenarios/range_modes.toml", to, from);
     return said;
   };
-  const Mission mission = read_mission(folder_ / "approach.toml");
+  const Mission mission = read_mission(folder_ / "scenarios/range_modes.toml");
   ASSERT_EQ(mission.approach.bodies.size(), 1U);
   EXPECT_DOUBLE_EQ(mission.approach.bodies[0].range.magnitude_at_1m, -4.4);
   EXPECT_DOUBLE_EQ(mission.approach.modes.range_sigma_leave, 0.3);

@@ -24,6 +24,10 @@ const char* name_of(omma_FrameState state) {
   static constexpr const char* kNames[] = {"missing", "fresh", "late", "stuck", "saturated", "mismatched"};
   return kNames[static_cast<std::size_t>(state)];
 }
+const char* name_of(omma_ExposureState state) {
+  static constexpr const char* kNames[] = {"fixed", "good", "waiting", "at its limit"};
+  return kNames[static_cast<std::size_t>(state)];
+}
 const char* name_of(omma_TrackState state) {
   static constexpr const char* kNames[] = {"lost", "acquired", "tracking"};
   return kNames[static_cast<std::size_t>(state)];
@@ -103,6 +107,12 @@ void add_cameras(Table& table, const omma_FrameSet& frame_set) {
                      camera.dots_kept, camera.dots_found, camera.stars_paired, camera.targets_paired,
                      static_cast<double>(camera.background_levels), static_cast<double>(camera.noise_levels),
                      static_cast<unsigned long long>(camera.images_rejected)));
+    if (camera.exposure_ms > 0)
+      table.add(TopicId::kFrameSet, camera.exposures_refused > 0 ? LineStyle::kWarning : LineStyle::kPlain,
+                format("  exposed %.3f ms, gain %.2f, black level %.1f   %s, %.2f %% full   refused %u",
+                       static_cast<double>(camera.exposure_ms), static_cast<double>(camera.gain),
+                       static_cast<double>(camera.black_level_levels), name_of(camera.exposure_state),
+                       100.0 * static_cast<double>(camera.full_share), camera.exposures_refused));
   }
 }
 

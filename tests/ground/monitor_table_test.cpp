@@ -76,6 +76,28 @@ TEST_F(MonitorTable, NothingThatIsOldLooksGood) {
   EXPECT_EQ(line_with("mode track", 4s).style, LineStyle::kStale);
 }
 
+TEST_F(MonitorTable, TellsHowACameraWasExposedWhereThatIsKnown) {
+  omma_CameraStatus cameras[2]{};
+  telemetry::set_text(cameras[0].name, "cam0");
+  telemetry::set_text(cameras[1].name, "cam1");
+  cameras[0].state = cameras[1].state = omma_FRAME_FRESH;
+  cameras[0].exposure_ms = 12.5;
+  cameras[0].gain = 2;
+  cameras[0].black_level_levels = 10;
+  cameras[0].full_share = 0.0125;
+  omma_FrameSet frame_set{};
+  frame_set.valid = true;
+  frame_set.cameras = {2, 2, cameras, false};
+  heard(TopicId::kFrameSet, frame_set);
+  const TableLine line = line_with("exposed 12.500 ms, gain 2.00, black level 10.0");
+  EXPECT_EQ(line.style, LineStyle::kPlain);
+  EXPECT_THAT(line.text, HasSubstr("fixed, 1.25 % full"));
+  line_with("cam1");
+  cameras[0].exposures_refused = 3;
+  heard(TopicId::kFrameSet, frame_set);
+  EXPECT_EQ(line_with("refused 3").style, LineStyle::kWarning);
+}
+
 TEST_F(MonitorTable, TellsEachStageOfAFrameSetAndMarksTheLateOne) {
   omma_StageTiming stages[2]{};
   telemetry::set_text(stages[0].name, "frame");

@@ -11,7 +11,9 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 namespace omma {
@@ -19,11 +21,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string beside_this_program(const std::string& program) {
+/// Beside this program, or in the folders of PATH; empty where there is none. Looked for here and not left to
+/// the spawning, which does not hear of it everywhere (an emulated processor's vfork is a fork).
+std::string path_of(const std::string& program) {
   std::error_code error;
   const std::filesystem::path beside =
       std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / program;
-  return std::filesystem::exists(beside, error) ? beside.string() : program;
+  if (::access(beside.c_str(), X_OK) == 0) return beside.string();
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path != nullptr ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    const std::filesystem::path there = std::filesystem::path(folder) / program;
+    if (::access(there.c_str(), X_OK) == 0) return there.string();
+  }
+  return {};
 }
 
 // What this program has set for its threads (priority, blocked signals) is not the child's.
@@ -45,7 +56,7 @@ int spawn(pid_t& process, const std::string& program, char* const* arguments, in
   // A group of its own: the terminal's interrupt is for this program, which ends the child.
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF |
                                             POSIX_SPAWN_SETSCHEDULER | POSIX_SPAWN_SETPGROUP);
-  const int error = posix_spawnp(&process, program.c_str(), &actions, &attributes, arguments, environ);
+  const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, arguments, environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
@@ -60,6 +71,8 @@ void close_all(std::array<int, 4>& files) {
 
 int ChildProcess::start(const std::string& program) {
   end();
+  const std::string path = path_of(program);
+  if (path.empty()) return ENOENT;
   std::array<int, 4> files{-1, -1, -1, -1};  // its input: read, write; its output: read, write
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, files.data()) != 0 ||
       ::pipe2(files.data() + 2, O_CLOEXEC) != 0) {
@@ -67,7 +80,6 @@ int ChildProcess::start(const std::string& program) {
     close_all(files);
     return error;
   }
-  const std::string path = beside_this_program(program);
   const std::array<char*, 2> words{const_cast<char*>(path.c_str()), nullptr};
   const int error = spawn(process_, path, words.data(), files[0], files[3]);
   if (error != 0) {

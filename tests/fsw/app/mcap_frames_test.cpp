@@ -163,7 +163,7 @@ TEST_F(McapRecording, AnEncodingThatIsNotUnderstoodIsNamed) {
 
 TEST_F(McapRecording, AMessageThatIsCutShortIsRefused) {
   std::vector<std::byte> message = raw(kStart, 1);
-  message.resize(message.size() - 1);
+  message.pop_back();
   write(cam0_, message);
   EXPECT_THAT(refusal("cam0"), HasSubstr("expected a whole image, found one that is cut short"));
 }

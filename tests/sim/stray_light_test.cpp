@@ -4,35 +4,16 @@
 #include <cmath>
 #include <numeric>
 
-#include "components/catalogue/observer.hpp"
-#include "sim/camera_renderer.hpp"
 #include "sim/stray_light.hpp"
+#include "tests/sim/scenes.hpp"
 
 namespace omma::sim {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
-// Looks along J2000's x axis, right is −y.
 Scenario empty_sky() {
-  Scenario scenario;
-  RigCamera camera;
-  camera.name = Name("cam0");
-  camera.lens = Lens::equidistant(400, 400, 150, {199.5, 199.5}, 1.5);
-  scenario.rig.cameras.push_back(camera);
-  Sensor& sensor = scenario.sensors[0];
-  sensor.bits = 14;
-  sensor.exposure = 0.1;
-  sensor.zero_point = 1e4;
-  sensor.full_well = 1e15;
-  sensor.gain = 1e10;
-  sensor.field = 150 * kDegree;
-  scenario.faintest = -5;
-  scenario.julian_date_utc = parse_utc("2026-01-01T00:00:00Z");
-  Eigen::Matrix3d j2000_from_rig;
-  j2000_from_rig << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  scenario.rig_motion = Motion::constant({Eigen::Quaterniond(j2000_from_rig), Eigen::Vector3d::Zero()},
-                                         Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  Scenario scenario = one_camera();
+  scenario.sensors[0].full_well = 1e15;
+  scenario.sensors[0].field = 150 * kDegree;
   return scenario;
 }
 
@@ -41,10 +22,7 @@ Eigen::Vector3d off_axis(double degrees) {  // to the right in the image
 }
 
 std::vector<float> electrons_of(const Scenario& scenario) {
-  const CameraView view(scenario.rig.cameras[0], scenario.sensors[0], 1, 0);
-  CameraRenderer renderer(scenario, {}, view, 0);
-  renderer.draw(0);
-  return {renderer.mean_electrons().begin(), renderer.mean_electrons().end()};
+  return draw(scenario).electrons;
 }
 
 double sum(const std::vector<float>& electrons) {

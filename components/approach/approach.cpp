@@ -31,6 +31,7 @@ void Approach::visit_ports(PortVisitor& visitor) const {
   visitor.input("attitude", attitude);
   visitor.input("poses", poses);
   visitor.input("objects", objects);
+  visitor.input("leftovers", leftovers);
   visitor.output("estimates", estimates);
 }
 
@@ -38,11 +39,9 @@ void Approach::step(const Tick& /*tick*/) noexcept {
   if (followed_.empty()) return;
   if (time_ns_ > 0 && dots->time_ns > time_ns_) predict(1e-9 * static_cast<double>(dots->time_ns - time_ns_));
   time_ns_ = dots->time_ns;
-  found_ = {};
   if (attitude->valid) {
     rig_from_j2000_ = attitude->solution.rig_from_j2000.toRotationMatrix();
     attitude_covariance_ = rig_from_j2000_.transpose() * attitude->solution.covariance * rig_from_j2000_;
-    found_ = leftovers_.find(*dots, *pairings, *attitude, rig_, catalogue_, floor_px_, 13.8);
     learn_zero();
   }
   for (std::size_t i = 0; i < followed_.size(); ++i) {
@@ -197,7 +196,7 @@ ExpectedLight Approach::expected(const Followed& body) const noexcept {
 
 void Approach::see_light(Followed& body) noexcept {
   const ExpectedLight expected = this->expected(body);
-  find_light(found_, *dots, rig_, rig_from_j2000_, expected, sightings_);
+  find_light(*leftovers, *dots, rig_, rig_from_j2000_, expected, sightings_);
   for (std::size_t c = 0; c < rig_.cameras.size(); ++c) {
     LightSighting& sighting = sightings_[c];
     LightSighting whole;

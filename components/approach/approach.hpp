@@ -50,6 +50,7 @@ class Approach final : public Component, public CommandReceiver {
   In<AttitudeEstimate> attitude;
   In<PoseEstimates> poses;
   In<UnknownObjects> objects;
+  In<std::span<const LeftoverDot>> leftovers;
   Out<ApproachEstimates> estimates;
 
   std::string_view name() const override { return "approach"; }
@@ -97,8 +98,6 @@ class Approach final : public Component, public CommandReceiver {
   const StarCatalogue& catalogue_;
   std::span<const TargetBody> bodies_;
   double floor_px_;
-  LeftoverDots leftovers_;
-  std::span<const LeftoverDot> found_;
   std::array<PhotometricZero, limits::kCameras> zeros_;
   std::array<float, StarCatalogue::kCapacity> magnitudes_{};  // by HR number
   std::vector<Followed> followed_;                            // filled once, at construction

@@ -19,6 +19,7 @@ void Surveillance::visit_ports(PortVisitor& visitor) const {
   visitor.input("pairings", pairings);
   visitor.input("attitude", attitude);
   visitor.output("objects", objects);
+  visitor.output("leftovers", leftovers);
 }
 
 void Surveillance::step(const Tick& /*tick*/) noexcept {
@@ -28,7 +29,7 @@ void Surveillance::step(const Tick& /*tick*/) noexcept {
   out.frame = dots->frame;
   out.time_ns = dots->time_ns;
   out.valid = attitude->valid;
-  out.leftover_dots = 0;
+  *leftovers = {};
   if (attitude->valid) {
     SkyFrame frame;
     frame.time_ns = dots->time_ns;
@@ -38,11 +39,11 @@ void Surveillance::step(const Tick& /*tick*/) noexcept {
       frame.looking[c] = dots->cameras[c].status == FrameStatus::kFresh;
       frame.everywhere = frame.everywhere && dots->cameras[c].everywhere;
     }
-    const std::span<const LeftoverDot> found =
-        leftovers_.find(*dots, *pairings, *attitude, rig_, catalogue_, floor_px_, parameters_.gate_chi2);
-    out.leftover_dots = static_cast<std::uint32_t>(found.size());
-    tracks_.take(found, frame);
+    *leftovers =
+        leftover_dots_.find(*dots, *pairings, *attitude, rig_, catalogue_, floor_px_, parameters_.gate_chi2);
+    tracks_.take(*leftovers, frame);
   }
+  out.leftover_dots = static_cast<std::uint32_t>(leftovers->size());
   tell();
 }
 

@@ -2,6 +2,8 @@
 // across the cameras, and told of once chance can hardly have made it.
 #pragma once
 
+#include <span>
+
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/catalogue/star_catalogue.hpp"
 #include "components/extractor/dot_lists.hpp"
@@ -27,6 +29,7 @@ class Surveillance final : public Component {
   In<Pairings> pairings;
   In<AttitudeEstimate> attitude;
   Out<UnknownObjects> objects;
+  Out<std::span<const LeftoverDot>> leftovers;  ///< of this frame set; none without an attitude
 
   std::string_view name() const override { return "surveillance"; }
   void visit_ports(PortVisitor& visitor) const override;
@@ -39,7 +42,7 @@ class Surveillance final : public Component {
   const Rig& rig_;
   const StarCatalogue& catalogue_;
   double floor_px_;
-  LeftoverDots leftovers_;
+  LeftoverDots leftover_dots_;  // what `leftovers` looks at
   ObjectTracks tracks_;
 };
 

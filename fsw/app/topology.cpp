@@ -169,6 +169,7 @@ void Topology::connect() {
   approach.attitude.bind(attitude.estimate);
   approach.poses.bind(pose.estimates);
   approach.objects.bind(surveillance.objects);
+  approach.leftovers.bind(surveillance.leftovers);
   imaging.frames.bind(cameras.frames);
   imaging.dots.bind(extractor.dots);
   imaging.attitude.bind(attitude.estimate);

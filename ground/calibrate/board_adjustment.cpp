@@ -1,11 +1,11 @@
 #include "ground/calibrate/board_adjustment.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "components/estimation/pose_search.hpp"
 #include "components/geometry/rig_dot.hpp"
+#include "ground/calibrate/normal_equations.hpp"
 
 namespace omma::ground {
 namespace {
@@ -16,12 +16,6 @@ constexpr double kNoModel = 3;              // a model this much worse than Kann
 constexpr double kNoModelPx = 0.5;          // … and this many pixels is none for the lens
 constexpr double kNothing = 1e-6;           // squared residuals that no longer matter [px²]
 constexpr double kFar = 1e4;                // residual of a corner the lens can not see [px]
-
-struct Sums {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd gradient;
-  double cost = 0;
-};
 
 class Adjuster {
  public:
@@ -34,10 +28,10 @@ class Adjuster {
   Eigen::Index lens_size() const { return shape_.parameters.size(); }
   Eigen::Index size() const { return lens_size() + 6 * static_cast<Eigen::Index>(views_.size()); }
   bool cost_of(const LensShape& shape, const std::vector<Pose>& poses, double& cost) const;
-  bool sums_at(Sums& sums) const;
+  bool sums_at(NormalEquations& sums) const;
   void add_corner(const Lens& lens, const std::vector<std::pair<Lens, Lens>>& moved,
-                  const Eigen::VectorXd& steps, std::size_t view, std::size_t corner, Sums& sums) const;
-  bool step_of(const Sums& sums, double damping, Eigen::VectorXd& step) const;
+                  const Eigen::VectorXd& steps, std::size_t view, std::size_t corner,
+                  NormalEquations& sums) const;
   void take(const Eigen::VectorXd& step, LensShape& shape, std::vector<Pose>& poses) const;
   void finish(BoardAdjustment& result) const;
 
@@ -67,7 +61,7 @@ bool Adjuster::cost_of(const LensShape& shape, const std::vector<Pose>& poses, d
 
 void Adjuster::add_corner(const Lens& lens, const std::vector<std::pair<Lens, Lens>>& moved,
                           const Eigen::VectorXd& steps, std::size_t view, std::size_t corner,
-                          Sums& sums) const {
+                          NormalEquations& sums) const {
   const Pose& pose = poses_[view];
   const Eigen::Vector3d turned = pose.rotation * views_[view].points[corner];
   const Eigen::Vector3d direction = turned + pose.translation;
@@ -98,7 +92,7 @@ void Adjuster::add_corner(const Lens& lens, const std::vector<std::pair<Lens, Le
   sums.information.block<6, 6>(at, at) += jacobian.rightCols<6>().transpose() * jacobian.rightCols<6>();
 }
 
-bool Adjuster::sums_at(Sums& sums) const {
+bool Adjuster::sums_at(NormalEquations& sums) const {
   const std::optional<Lens> lens = shape_.lens();
   if (!lens) return false;
   const Eigen::VectorXd steps = shape_.steps();
@@ -118,18 +112,6 @@ bool Adjuster::sums_at(Sums& sums) const {
   }
   if (fix_lens_) sums.information.topLeftCorner(lens_size(), lens_size()).setIdentity();
   return true;
-}
-
-bool Adjuster::step_of(const Sums& sums, double damping, Eigen::VectorXd& step) const {
-  const Eigen::VectorXd diagonal = sums.information.diagonal();
-  if (!(diagonal.minCoeff() > 0)) return false;
-  const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXd scaled = scale.asDiagonal() * sums.information * scale.asDiagonal();
-  scaled.diagonal().array() += damping;
-  const Eigen::LDLT<Eigen::MatrixXd> factor(scaled);
-  if (factor.info() != Eigen::Success) return false;
-  step = scale.asDiagonal() * factor.solve(scale.asDiagonal() * sums.gradient);
-  return step.allFinite();
 }
 
 void Adjuster::take(const Eigen::VectorXd& step, LensShape& shape, std::vector<Pose>& poses) const {
@@ -156,24 +138,23 @@ void Adjuster::finish(BoardAdjustment& result) const {
   result.rms_px = std::sqrt(sum / count);
   result.shape = shape_;
   result.camera_from_board = poses_;
-  Sums sums;
+  NormalEquations sums;
   if (fix_lens_ || !sums_at(sums)) return;
   const double variance = sum / std::max(1.0, 2 * count - double(size()));
-  const Eigen::VectorXd scale = sums.information.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * sums.information * scale.asDiagonal();
-  const Eigen::MatrixXd inverse = scaled.ldlt().solve(Eigen::MatrixXd::Identity(size(), size()));
-  const Eigen::MatrixXd covariance = variance * (scale.asDiagonal() * inverse * scale.asDiagonal());
-  result.lens_covariance = covariance.topLeftCorner(lens_size(), lens_size());
+  Eigen::VectorXd unused;
+  Eigen::MatrixXd covariance;
+  if (!solve_scaled(sums, 0, unused, &covariance)) return;
+  result.lens_covariance = variance * covariance.topLeftCorner(lens_size(), lens_size());
 }
 
 BoardAdjustment Adjuster::run() {
   BoardAdjustment result;
-  Sums here;
+  NormalEquations here;
   if (!sums_at(here)) return result;
   double damping = 1e-4;
   for (int iteration = 0; iteration < kMostIterations && !result.converged; ++iteration) {
     Eigen::VectorXd step;
-    if (!step_of(here, damping, step)) {
+    if (!solve_scaled(here, damping, step, nullptr)) {
       damping *= 10;
       if (damping > 1e8) break;
       continue;

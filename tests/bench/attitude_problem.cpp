@@ -5,17 +5,12 @@
 #include <numbers>
 
 #include "components/geometry/pose.hpp"
+#include "tests/random_direction.hpp"
 
 namespace omma {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-Eigen::Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(random), y = gauss(random), z = gauss(random);
-  return Eigen::Vector3d(x, y, z).normalized();
-}
 
 Eigen::Quaterniond random_turn(Turn turn, std::mt19937_64& random) {
   const Eigen::Vector3d axis = random_direction(random);

@@ -11,6 +11,7 @@
 #include "tests/bench/measure.hpp"
 #include "tests/bench/repeatability.hpp"
 #include "tests/bench/rig_problem.hpp"
+#include "tests/random_direction.hpp"
 
 namespace omma {
 namespace {
@@ -24,12 +25,6 @@ struct Case {
   int stars;
   double initial_error_deg;
 };
-
-Eigen::Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(random), y = gauss(random), z = gauss(random);
-  return Eigen::Vector3d(x, y, z).normalized();
-}
 
 /// Ten directions per camera within 55° of its axis (0°, 109.5°, 109.5° from the rig's z).
 std::vector<Sight> random_sky(int stars, const Eigen::Quaterniond& truth, std::mt19937_64& random) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/random_direction.hpp"
+
 namespace omma {
 namespace {
 
@@ -17,14 +19,6 @@ Eigen::Quaterniond random_rotation(std::mt19937_64& random) {
   for (double& c : q) c = gauss(random);
   q.normalize();
   return {q(3), q(0), q(1), q(2)};
-}
-
-Eigen::Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(random);
-  const double y = gauss(random);
-  const double z = gauss(random);
-  return Eigen::Vector3d(x, y, z).normalized();
 }
 
 /// Camera looking along `axis` with `up` at the top of its image.

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <sstream>
 
 #include "fsw/kernel/input_error.hpp"
@@ -14,6 +13,7 @@
 #include "ground/capture/frame_folder.hpp"
 #include "ground/capture/half_blocks.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma::ground {
 namespace {
@@ -21,15 +21,6 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr TimeNs kPeriod = 50'000'000;
-
-std::string message(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 TEST(FrameNumbers, OfOneInstantAreTheSameForAllCameras) {
   CaptureStart start;
@@ -85,30 +76,30 @@ TEST_F(FolderOfFrames, IsARecordingAndAnIndex) {
 
 TEST_F(FolderOfFrames, OfAnEarlierCaptureIsNotWrittenInto) {
   FrameFolder(top_, "cam0", PngEffort::kFast);
-  EXPECT_THAT(message([&] { FrameFolder(top_, "cam0", PngEffort::kFast); }),
+  EXPECT_THAT(refusal_of([&] { FrameFolder(top_, "cam0", PngEffort::kFast); }),
               HasSubstr("--output: expected a folder without frames, found an earlier capture"));
 }
 
 TEST(Capture, NeedsCamerasFromOnePlace) {
-  EXPECT_EQ(message([] { capture_cameras({}); }),
+  EXPECT_EQ(refusal_of([] { capture_cameras({}); }),
             "omma capture: cameras: expected either a mission file or --camera, found neither");
   CaptureArguments both;
   both.mission = "x.toml";
   both.cameras = {"a=v4l2:/dev/video0"};
-  EXPECT_THAT(message([&] { capture_cameras(both); }), HasSubstr("found both"));
+  EXPECT_THAT(refusal_of([&] { capture_cameras(both); }), HasSubstr("found both"));
 }
 
 TEST(Capture, RefusesWordsItDoesNotUnderstand) {
   CaptureArguments arguments;
   arguments.cameras = {"cam0=/dev/video0"};
-  EXPECT_THAT(message([&] { capture_cameras(arguments); }),
+  EXPECT_THAT(refusal_of([&] { capture_cameras(arguments); }),
               HasSubstr("--camera: expected NAME=DRIVER:DEVICE"));
   arguments.cameras = {"cam0=v4l2:/dev/video0"};
   arguments.size = "640*480";
-  EXPECT_THAT(message([&] { capture_cameras(arguments); }), HasSubstr("--size: expected WIDTHxHEIGHT"));
+  EXPECT_THAT(refusal_of([&] { capture_cameras(arguments); }), HasSubstr("--size: expected WIDTHxHEIGHT"));
   arguments.size = "640x480";
   arguments.controls = {"gain"};
-  EXPECT_THAT(message([&] { capture_cameras(arguments); }), HasSubstr("--set: expected NAME=VALUE"));
+  EXPECT_THAT(refusal_of([&] { capture_cameras(arguments); }), HasSubstr("--set: expected NAME=VALUE"));
 }
 
 TEST(Capture, TakesTheLiveCamerasOfAMission) {
@@ -121,7 +112,7 @@ TEST(Capture, TakesTheLiveCamerasOfAMission) {
   EXPECT_EQ(cameras[0].setup.width, 768);
   EXPECT_EQ(cameras[0].setup.controls.size(), 2U);
   arguments.mission = std::string(OMMA_SOURCE_DIR) + "/config/demo.toml";
-  EXPECT_THAT(message([&] { capture_cameras(arguments); }),
+  EXPECT_THAT(refusal_of([&] { capture_cameras(arguments); }),
               HasSubstr("camera: expected a live camera of the rig, found none"));
 }
 

@@ -5,17 +5,13 @@
 
 #include "components/telemetry/topics.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma::idl {
 namespace {
 
 std::string error_of(std::string_view text) {
-  try {
-    parse(text, "x.idl");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return refusal_of([&] { parse(text, "x.idl"); });
 }
 
 TEST(IdlSchema, KnowsEveryTopicAndItsMembers) {

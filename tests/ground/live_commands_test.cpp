@@ -7,13 +7,13 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "components/geometry/rig_file.hpp"
 #include "hal/recorded/image_file.hpp"
+#include "tests/ground/loopback_dds.hpp"
 #include "tests/ground/run_program.hpp"
 
 namespace omma::ground {
@@ -60,12 +60,7 @@ class Flight {
 class LiveCommands : public testing::Test {
  protected:
   LiveCommands() {
-    setenv(
-        "CYCLONEDDS_URI",
-        "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-        "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto"
-        "</ParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
-        1);
+    test::use_loopback_dds();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     write_mission();

@@ -14,6 +14,7 @@
 #include "components/telemetry/samples.hpp"
 #include "ground/dds/subscriber.hpp"
 #include "ground/recording.hpp"
+#include "tests/ground/loopback_dds.hpp"
 #include "tests/ground/run_program.hpp"
 #include "tests/ground/sample_recording.hpp"
 
@@ -67,14 +68,7 @@ class Publisher {
 
 class LiveTelemetry : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    setenv(
-        "CYCLONEDDS_URI",
-        "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\"/></Interfaces>"
-        "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto"
-        "</ParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>",
-        1);
-  }
+  static void SetUpTestSuite() { test::use_loopback_dds(); }
   /// A domain of this process's own: several tests may run at once. Their ports lie below 32768, where the
   /// system takes those it hands out itself.
   static int domain() { return 1 + static_cast<int>(getpid() % 90); }

@@ -11,17 +11,13 @@
 #include <thread>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
 
 std::string refusal(const std::string& device, int timeout_s) {
-  try {
-    LinuxWatchdog watchdog(device, timeout_s);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { LinuxWatchdog watchdog(device, timeout_s); });
 }
 
 TEST(LinuxWatchdog, RefusesWhatIsNoWatchdogInASentence) {

@@ -15,6 +15,7 @@
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
 #include "hal/shared_frames/shared_source.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -220,17 +221,8 @@ TEST_F(SimulatedCamera, SettingsAreSetAgainAfterALoss) {
   EXPECT_TRUE(eventually([&] { return writer_->exposure_us() == 20'000; }));
 }
 
-std::string message(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST_F(SimulatedCamera, WithoutItsProgramIsRefusedAtTheStart) {
-  EXPECT_THAT(message([&] { SharedSource(setup_of(name_)).start(); }),
+  EXPECT_THAT(refusal_of([&] { SharedSource(setup_of(name_)).start(); }),
               HasSubstr("device: expected frames that a program writes"));
 }
 
@@ -238,23 +230,23 @@ TEST_F(SimulatedCamera, OfAnotherSizeIsRefused) {
   begin();
   CameraSetup setup = setup_of(name_);
   setup.width = 32;
-  EXPECT_THAT(message([&] { SharedSource(setup).start(); }),
+  EXPECT_THAT(refusal_of([&] { SharedSource(setup).start(); }),
               HasSubstr("size: expected 32 x 8 px up to 255, found 16 x 8 px up to 255"));
 }
 
 TEST_F(SimulatedCamera, UnknownControlIsRefused) {
   CameraSetup setup = setup_of(name_);
   setup.controls = {{"gamma", "1"}};
-  EXPECT_THAT(message([&] { SharedSource{setup}; }),
+  EXPECT_THAT(refusal_of([&] { SharedSource{setup}; }),
               HasSubstr("expected exposure [us] or gain [percent], found gamma"));
   setup.controls = {{"gain", "high"}};
-  EXPECT_THAT(message([&] { SharedSource{setup}; }),
+  EXPECT_THAT(refusal_of([&] { SharedSource{setup}; }),
               HasSubstr("controls.gain: expected a whole number from 0, found high"));
 }
 
 TEST_F(SimulatedCamera, IsWrittenByOneProgramOnly) {
   begin();
-  EXPECT_THAT(message([&] { SharedFramesWriter(name_, shape_of(setup_of(name_))); }),
+  EXPECT_THAT(refusal_of([&] { SharedFramesWriter(name_, shape_of(setup_of(name_))); }),
               HasSubstr("expected memory that no other program writes"));
 }
 

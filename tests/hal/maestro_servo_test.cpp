@@ -13,6 +13,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "sim/devices/maestro_simulator.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -152,12 +153,7 @@ TEST(MaestroServo, CommandsOutOfRangeNeverReachTheLine) {
 }
 
 std::string refusal(const MaestroOptions& chosen) {
-  try {
-    const MaestroServo servo(chosen);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of([&] { const MaestroServo servo(chosen); });
 }
 
 TEST(MaestroServo, BadOptionsAndDevicesAreNamed) {

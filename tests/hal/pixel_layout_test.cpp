@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -95,12 +96,7 @@ TEST(PixelLayout, LuminanceOfColour) {
 }
 
 std::string message(const CameraSetup& setup) {
-  try {
-    shape_of(setup);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return refusal_of([&] { shape_of(setup); });
 }
 
 TEST(CameraSetup, ThatMakesNoSenseIsRefused) {

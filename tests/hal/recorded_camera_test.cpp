@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 thread_local std::uint64_t allocations = 0;
@@ -58,12 +59,7 @@ class Recording : public ::testing::Test {
     for (int n = 0; n < count; ++n) add(n, std::to_string(n));
   }
   std::string error_of(const RecordedCameraOptions& options = {}) const {
-    try {
-      const RecordedCamera camera(top_, "cam0", options);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { const RecordedCamera camera(top_, "cam0", options); });
   }
   std::filesystem::path top_;
 };
@@ -221,7 +217,7 @@ TEST_F(Recording, WrongSizeOrDepthIsRefusedAtStartUp) {
   options.bits = 16;
   EXPECT_THAT(error_of(options), HasSubstr("expected 64 x 48 px of 16 bits, found 64 x 48 px of 8 bits"));
   options.bits = 8;
-  EXPECT_EQ(error_of(options), "");
+  EXPECT_EQ(error_of(options), "no error");
   add(2, "2", 80);
   EXPECT_THAT(error_of(options), HasSubstr("cam0_2.png: image size"));
 }

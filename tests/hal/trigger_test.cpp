@@ -16,6 +16,7 @@
 #include "hal/maestro/maestro_trigger.hpp"
 #include "hal/pulse_end.hpp"
 #include "sim/devices/maestro_simulator.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -96,12 +97,7 @@ TEST(MaestroTrigger, ABoardThatIsGoneSendsNoPulse) {
 }
 
 std::string refusal(const GpiodOptions& options) {
-  try {
-    const GpiodTrigger trigger(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of([&] { const GpiodTrigger trigger(options); });
 }
 
 TEST(GpiodTrigger, AChipThatIsNotThereIsNamed) {

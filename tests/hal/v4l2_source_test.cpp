@@ -5,53 +5,44 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <string>
 
 #include "fsw/kernel/input_error.hpp"
 #include "hal/sources/live_drivers.hpp"
 #include "hal/v4l2/v4l2_controls.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string message(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 CameraSetup setup_of(const std::string& device) {
   return {.where = "lab.toml", .device = device, .width = 64, .height = 48};
 }
 
 TEST(V4l2Source, WithoutADeviceIsRefused) {
-  EXPECT_EQ(message([] { V4l2Source(setup_of("/dev/video250")).start(); }),
+  EXPECT_EQ(refusal_of([] { V4l2Source(setup_of("/dev/video250")).start(); }),
             "lab.toml: device: expected the video device /dev/video250, found No such file or directory");
 }
 
 TEST(V4l2Source, OfSomethingElseIsRefused) {
-  EXPECT_THAT(message([] { V4l2Source(setup_of("/etc/passwd")).start(); }),
+  EXPECT_THAT(refusal_of([] { V4l2Source(setup_of("/etc/passwd")).start(); }),
               HasSubstr("the video device /etc/passwd"));
-  EXPECT_EQ(message([] { V4l2Source(setup_of("/dev/null")).start(); }),
+  EXPECT_EQ(refusal_of([] { V4l2Source(setup_of("/dev/null")).start(); }),
             "lab.toml: device: expected a video device that captures by streaming, found /dev/null, which "
             "does not");
 }
 
 TEST(V4l2Source, OfAnUnknownCardIsRefused) {
-  EXPECT_EQ(message([] { V4l2Source(setup_of("no such card")).start(); }),
+  EXPECT_EQ(refusal_of([] { V4l2Source(setup_of("no such card")).start(); }),
             "lab.toml: device: expected the card or bus of a video device, found no such card");
 }
 
 TEST(V4l2Source, WithTooFewBuffersIsRefused) {
   CameraSetup setup = setup_of("/dev/video0");
   setup.buffers = 1;
-  EXPECT_EQ(message([&] { V4l2Source{setup}; }), "lab.toml: buffers: expected 2 to 32, found 1");
+  EXPECT_EQ(refusal_of([&] { V4l2Source{setup}; }), "lab.toml: buffers: expected 2 to 32, found 1");
 }
 
 TEST(V4l2Names, OfFormatsGoBothWays) {
@@ -70,7 +61,7 @@ TEST(V4l2Names, OfControlsMeanTheUsualOnes) {
 }
 
 TEST(LiveDrivers, UnknownOneIsRefused) {
-  EXPECT_THAT(message([] { make_frame_source("webcam", setup_of("x")); }), HasSubstr("driver: expected"));
+  EXPECT_THAT(refusal_of([] { make_frame_source("webcam", setup_of("x")); }), HasSubstr("driver: expected"));
 }
 
 }  // namespace

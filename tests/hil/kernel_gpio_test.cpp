@@ -16,6 +16,7 @@
 #include "fsw/kernel/scheduler.hpp"
 #include "hal/gpiod/gpiod_trigger.hpp"
 #include "kernel_trace.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -145,12 +146,7 @@ TEST_F(KernelGpio, AChipThatGoesAndComesIsSurvivedCountedAndNamed) {
 }
 
 std::string refusal(const GpiodOptions& options) {
-  try {
-    const GpiodTrigger trigger(options);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of([&] { const GpiodTrigger trigger(options); });
 }
 
 TEST_F(KernelGpio, LinesThatCannotBeHadAreNamed) {

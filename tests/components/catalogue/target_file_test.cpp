@@ -7,6 +7,7 @@
 #include "components/catalogue/target_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -14,12 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string error_of(const std::string& text) {
-  try {
-    targets_from_text(text, "card.tsv");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { targets_from_text(text, "card.tsv"); });
 }
 
 TEST(TargetFile, IsReadWithAndWithoutHeader) {

@@ -9,18 +9,13 @@
 #include <random>
 
 #include "tests/bench/rig_problem.hpp"
+#include "tests/random_direction.hpp"
 
 namespace omma {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSigma = 1e-3;
-
-Eigen::Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(random), y = gauss(random), z = gauss(random);
-  return Eigen::Vector3d(x, y, z).normalized();
-}
 
 std::vector<Sight> random_stars(int n, const Eigen::Quaterniond& truth, std::mt19937_64& random) {
   std::normal_distribution<double> gauss;

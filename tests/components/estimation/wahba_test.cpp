@@ -8,17 +8,10 @@
 #include <random>
 
 #include "components/geometry/pose.hpp"
+#include "tests/random_direction.hpp"
 
 namespace omma {
 namespace {
-
-Eigen::Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> gauss;
-  const double x = gauss(random);
-  const double y = gauss(random);
-  const double z = gauss(random);
-  return Eigen::Vector3d(x, y, z).normalized();
-}
 
 TEST(Wahba, FindsAnyRotationExactlyWithoutNoise) {
   std::mt19937_64 random(3);

@@ -9,6 +9,7 @@
 #include "components/geometry/lens_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "tests/components/geometry/temporary_file.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -65,7 +66,7 @@ std::string with(std::string text, const std::string& old, const std::string& fr
 
 std::string error_of(const std::string& name, const std::string& text, const std::string& camera = "") {
   const TemporaryFile file(name, text);
-  return message_of<InputError>([&] { read_lens_file(file.path() + camera); });
+  return refusal_of([&] { read_lens_file(file.path() + camera); });
 }
 
 void expect_same(const Lens& a, const Lens& b) {
@@ -207,9 +208,9 @@ TEST(KalibrFile, CamerasOfAChainAreChosenByName) {
   ASSERT_EQ(pinhole.model(), LensModel::kCaltech);
   EXPECT_DOUBLE_EQ(pinhole.caltech_model()->coefficients()[2], 0.001);
   EXPECT_DOUBLE_EQ(pinhole.caltech_model()->coefficients()[4], 0);
-  EXPECT_THAT(message_of<InputError>([&] { read_lens_file(file.path()); }),
+  EXPECT_THAT(refusal_of([&] { read_lens_file(file.path()); }),
               HasSubstr("expected FILE#CAMERA with one of cam0, cam1, found no camera named"));
-  EXPECT_THAT(message_of<InputError>([&] { read_lens_file(file.path() + "#cam7"); }),
+  EXPECT_THAT(refusal_of([&] { read_lens_file(file.path() + "#cam7"); }),
               HasSubstr("expected one of cam0, cam1, found \"cam7\""));
 }
 
@@ -243,10 +244,9 @@ TEST(KalibrFile, WrongRecordsAreNamedWithTheirLine) {
 }
 
 TEST(LensFile, WhatIsNoLensFileIsRefusedInOneSentence) {
-  EXPECT_THAT(message_of<InputError>([] { read_lens_file("/no/such/lens.txt"); }),
+  EXPECT_THAT(refusal_of([] { read_lens_file("/no/such/lens.txt"); }),
               HasSubstr("/no/such/lens.txt: file: expected a readable file, found no such file"));
-  EXPECT_THAT(message_of<InputError>([] { read_lens_file(testing::TempDir()); }),
-              HasSubstr("something else"));
+  EXPECT_THAT(refusal_of([] { read_lens_file(testing::TempDir()); }), HasSubstr("something else"));
   EXPECT_THAT(error_of("empty.txt", ""), HasSubstr("the end of the file"));
   const std::string binary = error_of("picture.txt", std::string("\x89PNG\r\n\x1a\n\0\0\0", 11));
   EXPECT_THAT(binary, HasSubstr("polynomial length: expected a whole number"));

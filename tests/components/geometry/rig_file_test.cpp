@@ -9,6 +9,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "tests/components/geometry/temporary_file.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -27,7 +28,7 @@ class RigFile : public ::testing::Test {
   }
   static std::string error_of(const std::string& text) {
     const TemporaryFile file("rig.toml", text);
-    return message_of<InputError>([&] { read_rig_file(file.path()); });
+    return refusal_of([&] { read_rig_file(file.path()); });
   }
   TemporaryFile lens_{"lens.txt", kLens};
 };

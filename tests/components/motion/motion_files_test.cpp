@@ -10,6 +10,7 @@
 #include <string>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -52,21 +53,11 @@ class MotionFiles : public testing::Test {
   }
   std::string gimbal_refusal(std::string text, const std::string& from, const std::string& to) const {
     text.replace(text.find(from), from.size(), to);
-    try {
-      gimbal(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+    return refusal_of([&] { gimbal(text); });
   }
   std::string refusal(const std::string& text, const std::string& name = "turn.csv") const {
     const std::vector<GimbalAxis> axes = gimbal();
-    try {
-      read_trajectory_file(written(name, text), axes);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+    return refusal_of([&] { read_trajectory_file(written(name, text), axes); });
   }
 
   std::filesystem::path folder_;

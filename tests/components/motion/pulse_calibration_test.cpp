@@ -1,5 +1,6 @@
 // Angle to pulse and back, in quarters of a microsecond.
 #include "components/motion/pulse_calibration.hpp"
+#include "tests/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,12 +38,7 @@ TEST(PulseCalibration, TheWayBackIsWithinHalfAStep) {
 }
 
 std::string refusal(const std::vector<PulsePoint>& points) {
-  try {
-    const PulseCalibration pulses(points);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of<std::invalid_argument>([&] { const PulseCalibration pulses(points); });
 }
 
 TEST(PulseCalibration, BadPointsAreNamed) {

@@ -1,5 +1,6 @@
 // Trajectories of an axis: through the key points, smooth, at rest at the ends, extremes as they are.
 #include "components/motion/spline.hpp"
+#include "tests/refusal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,12 +84,7 @@ TEST(AxisSpline, AnAxisThatRestsHasNoExtremes) {
 }
 
 std::string refusal(const std::vector<KeyPoint>& points) {
-  try {
-    const AxisSpline spline(points);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "taken";
+  return refusal_of<std::invalid_argument>([&] { const AxisSpline spline(points); });
 }
 
 TEST(AxisSpline, BadKeyPointsAreNamed) {

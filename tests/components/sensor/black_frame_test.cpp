@@ -11,6 +11,7 @@
 #include "components/sensor/black_frame_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/image_file.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -44,12 +45,7 @@ BlackFrame made(HotPixelCounts& counts, int frames = 40) {
 }
 
 std::string message_of(const fs::path& file) {
-  try {
-    read_black_frame(file);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "nothing was wrong";
+  return refusal_of([&] { read_black_frame(file); });
 }
 
 struct Folder {

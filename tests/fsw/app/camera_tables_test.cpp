@@ -7,6 +7,7 @@
 #include "components/sensor/black_frame_file.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/components/geometry/temporary_file.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -34,7 +35,7 @@ Tables read(const std::string& text) {
 }
 
 void expect_refused(const std::string& text, const std::string& sentence) {
-  const std::string message = message_of<InputError>([&] { read(text); });
+  const std::string message = refusal_of([&] { read(text); });
   EXPECT_THAT(message, HasSubstr(sentence)) << text;
   EXPECT_THAT(message, HasSubstr("camera.toml:1: ")) << text;
 }
@@ -81,8 +82,7 @@ TEST(CameraTables, RefuseMasksThatAreNone) {
   expect_refused("mask = { boxes = [0, 0, 119, 79] }", "mask: expected a camera that still sees something");
   expect_refused("mask = { glare = { bright = 2 } }", "mask.glare.bright: expected a number from 0.05 to 1");
   expect_refused("mask = { shadow = 1 }", "mask.shadow: expected one of");
-  EXPECT_THAT(message_of<InputError>([] { read("mask = { picture = \"none.png\" }"); }),
-              HasSubstr("none.png"));
+  EXPECT_THAT(refusal_of([] { read("mask = { picture = \"none.png\" }"); }), HasSubstr("none.png"));
 }
 
 TEST(CameraTables, TakePicturesAndBlackFramesOfTheLensesSizeOnly) {
@@ -121,10 +121,8 @@ TEST(CameraTables, RefuseSensorsThatAreNone) {
   expect_refused("sensor = { relative_illumination = [] }",
                  "sensor.relative_illumination: expected an array");
   expect_refused("sensor = { dark = 1 }", "sensor.dark: expected one of");
-  EXPECT_THAT(message_of<InputError>([] { read("sensor = { black_frame = \"none.fits\" }"); }),
-              HasSubstr("none.fits"));
-  EXPECT_THAT(message_of<InputError>([] { read("sensor = { response = \"none.tsv\" }"); }),
-              HasSubstr("none.tsv"));
+  EXPECT_THAT(refusal_of([] { read("sensor = { black_frame = \"none.fits\" }"); }), HasSubstr("none.fits"));
+  EXPECT_THAT(refusal_of([] { read("sensor = { response = \"none.tsv\" }"); }), HasSubstr("none.tsv"));
 }
 
 TEST(CameraTables, LimitTheExposure) {

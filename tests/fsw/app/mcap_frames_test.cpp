@@ -10,6 +10,7 @@
 #include "components/telemetry/mcap_writer.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/recorded_camera.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -92,14 +93,11 @@ class McapRecording : public ::testing::Test {
     return {path_, camera, rate_hz};
   }
   std::string refusal(const std::string& camera) {
-    try {
+    return refusal_of([&] {
       McapFrames frames = open(camera);
       Image image;
       for (std::size_t i = 0; i < frames.count(); ++i) frames.read(i, image);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    });
   }
 
   std::filesystem::path path_ =

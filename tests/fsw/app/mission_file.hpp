@@ -11,6 +11,7 @@
 #include "fsw/app/mission.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 
@@ -39,12 +40,7 @@ class MissionFile : public testing::Test {
   }
 
   std::string message() const {
-    try {
-      read_mission(file());
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return refusal_of([&] { read_mission(file()); });
   }
 
   std::filesystem::path folder_;

@@ -10,6 +10,7 @@
 
 #include "fsw/kernel/input_error.hpp"
 #include "fsw/services/command_script.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma {
 namespace {
@@ -37,12 +38,7 @@ Command read(std::vector<std::string_view> words) {
   return command_from_words(words, kWords, "console");
 }
 std::string fault(const std::vector<std::string_view>& words) {
-  try {
-    read(words);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return refusal_of([&] { read(words); });
 }
 
 TEST(CommandText, WordsBecomeNumbersAndNumbersWords) {
@@ -94,12 +90,7 @@ class CommandScript : public testing::Test {
     return read_command_script(file_, kWords);
   }
   std::string script_fault(const std::string& text) const {
-    try {
-      read_script(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "no error";
+    return refusal_of([&] { read_script(text); });
   }
   const std::filesystem::path file_ =
       std::filesystem::path(testing::TempDir()) / ("omma_script_" + std::to_string(getpid()) + ".txt");

@@ -1,5 +1,6 @@
 // Strict TOML: right values are read, wrong ones are named by file, line and field.
 #include "fsw/services/toml_table.hpp"
+#include "tests/refusal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,12 +21,7 @@ std::filesystem::path file_with(const std::string& text) {
 
 template <class Read>
 std::string message_of(const std::string& text, Read read) {
-  try {
-    read(TomlTable::read(file_with(text)));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return refusal_of([&] { read(TomlTable::read(file_with(text))); });
 }
 
 TEST(TomlTable, ReadsEachKind) {

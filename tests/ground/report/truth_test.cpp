@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace omma::ground {
 namespace {
@@ -30,12 +31,7 @@ class Truth : public testing::Test {
     return read_truth(file_, 2);
   }
   std::string refusal(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return refusal_of([&] { read(text); });
   }
   static std::string changed(const std::string& from, const std::string& to) {
     std::string line = kLine;

@@ -18,8 +18,10 @@ constexpr double kModelError = 0.002;  // what no model of a real spot is better
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
 constexpr double kSecondOrder = 7;
-constexpr double kStretched =
-    0.3;  // excess of the long axis's variance from which a trail is tried [variance]
+// Excess of the long axis's variance from which a trail is tried: this share of the spot's variance and of
+// that of the half pixel on each side within which sharp spots are drawn out by the sensor.
+constexpr double kStretched = 0.3;
+constexpr double kSensorVariance = 0.25;  // [px²]
 constexpr double kTrailGain = 15;         // by which a trail's χ² must be smaller
 constexpr double kManyPixels = 5000;      // whose residuals tell the noise to 2 %
 constexpr double kLeastNoiseShare = 0.9;  // [variance]
@@ -42,9 +44,11 @@ double length(double x, double y) {
   return std::sqrt(x * x + y * y);
 }
 
+// Where the pixels are not as any spot leaves them, neither is the shape.
 bool is_elongated(const SpotFit& fit) {
   const double stretch = length(fit.stretch, fit.skew);
-  return stretch > 3 * fit.shape_error && stretch > kStretched * fit.sigma * fit.sigma;
+  const double error = fit.shape_error * std::sqrt(std::max(1.0, fit.chi2_per_pixel));
+  return stretch > 3 * error && stretch > kStretched * (fit.sigma * fit.sigma + kSensorVariance);
 }
 
 // Standard deviation of a blob's pixels, were it an even disc [px].
@@ -168,7 +172,8 @@ bool DotMeasurement::try_trail(const Candidate& candidate, std::size_t self, Dot
   fit_spot(window_, noise, prior_, fit_);
   const int freedom = std::max(1, window_.counted - 7);
   const double round_chi2 = fit_.chi2_per_pixel * std::max(1, window_.counted - 5);
-  const bool better = trail_.usable && (!fit_.usable || trail_.chi2 + kTrailGain < round_chi2) &&
+  const double gain = kTrailGain * std::max(1.0, trail_.chi2 / freedom);
+  const bool better = trail_.usable && (!fit_.usable || trail_.chi2 + gain < round_chi2) &&
                       trail_.sigma < static_cast<double>(parameters_->max_point_sigma) &&
                       length(trail_.u - before.u, trail_.v - before.v) < 2 + before.sigma;
   fit_ = before;
@@ -256,9 +261,11 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   set_narrowest(parameters_->min_sigma);
   prior_.sigma = 1.0F;
   prior_.sigma_error = 0.7F;
-  // Some from all: the very brightest may be something else than stars.
+  // Some from all that may be handed over: the very brightest may be something else than stars, and so may
+  // the faintest of a flood.
   std::size_t elongated = 0;
-  const std::size_t stride = std::max<std::size_t>(1, candidates.size() / (2 * kSample));
+  const std::size_t drawn_from = std::min(candidates.size(), limits::kDotsPerCamera);
+  const std::size_t stride = std::max<std::size_t>(1, drawn_from / (2 * kSample));
   for (std::size_t i = 0; i < candidates.size() && widths_.size() < kSample; i += stride) {
     const Candidate& candidate = candidates[i];
     if (candidate.saturated > 0 || candidate.peaks > 1) continue;

@@ -5,13 +5,15 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "components/catalogue/solar_system.hpp"
+#include "components/extractor/dot_extractor.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
-#include "tests/bench/photographs.hpp"
+#include "tests/bench/photograph_stars.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -52,6 +54,21 @@ TEST(Photographs, LongyearbyenIsSolvedWithAndWithoutEpochAndSite) {
     expect_right(photograph, solution);
     EXPECT_GE(solution.stars_used, 60) << photograph.name;
   }
+}
+
+// A still camera whose sharp spots are drawn out a little, each in a way of its own: no trails. The list of
+// 512 dots is full; that which another measure of the light fills holds as many of the listed stars.
+TEST(Photographs, StarsOverLongyearbyenAreMeasuredAsTheSpotsTheyAre) {
+  const auto all = shared(PhotographGroup::kLongyearbyen);
+  OMMA_NEEDS(all);
+  const Image image = read_image(all[0].images[0]);
+  DotExtractor extractor(image.width, image.height);
+  const auto list = std::make_unique<DotList>();
+  extractor.extract(image.view(), ExtractorParameters{}, *list);
+  const PhotographStars stars = stars_found(all[0], list->dots);
+  EXPECT_EQ(stars.listed, 329);
+  EXPECT_GE(stars.found, 283);
+  EXPECT_GE(stars.brightest_are_stars, 321);
 }
 
 // Of the planets only Mars stood above the horizon and bright enough, south of the zenith.

@@ -66,13 +66,34 @@ class CalibrationTerms {
     return sum - scale * scale.transpose() + others * others.transpose();
   }
 
+  /// Covariance that the errors give to `gain` x − `other_gain` y, where x and y are solutions that were both
+  /// made with them: what they do to both alike cancels. The gains are times each solution's own covariance.
+  Matrix spread_of_difference(const Matrix& gain, const CalibrationTerms& other,
+                              const Matrix& other_gain) const noexcept {
+    Matrix sum = Matrix::Zero();
+    const auto add_square = [&](const auto& here, const auto& there) {
+      const auto difference = (gain * here - other_gain * there).eval();
+      sum += difference * difference.transpose();
+    };
+    Vector scale = Vector::Zero(), other_scale = Vector::Zero();
+    for (std::size_t c = 0; c < by_camera_.size(); ++c) {
+      add_square(by_camera_[c], other.by_camera_[c]);
+      scale += by_scale_[c];
+      other_scale += other.by_scale_[c];
+    }
+    add_square(scale, other_scale);
+    if (kUnknowns == kPoseUnknowns && sigma_.survey > 0)
+      for (std::size_t t = 0; t < by_target_.size(); ++t) add_square(by_target_[t], other.by_target_[t]);
+    return sum;
+  }
+
  private:
   static std::size_t camera_of(const SightSource& source) {
     return std::min<std::size_t>(source.camera, limits::kCameras - 1);
   }
 
-  const CalibrationError& sigma_;
-  const CameraAxes& axes_;
+  CalibrationError sigma_;
+  CameraAxes axes_;
   std::array<Eigen::Matrix<double, kUnknowns, kCameraErrors>, limits::kCameras> by_camera_;
   std::array<Vector, limits::kCameras> by_scale_;
   std::array<Eigen::Matrix<double, kUnknowns, 3>, limits::kTargetsPerBody> by_target_;

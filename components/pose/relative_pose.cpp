@@ -12,6 +12,7 @@ void RelativePose::step(const Tick& /*tick*/) noexcept {
   for (std::size_t b = 0; b < pairings->bodies.size(); ++b) {
     solve_body(pairings->bodies[b], estimates->bodies[b]);
     check_body(pairings->bodies[b], estimates->bodies[b]);
+    refer_to_first(estimates->bodies[b]);
   }
 }
 
@@ -28,6 +29,7 @@ void RelativePose::withdraw(const BodyPairings& body, PoseEstimate& out) noexcep
   out.body = body.body;
   out.valid = false;
   out.solution = {};
+  out.motion = {};
   out.used.clear();
   out.used.resize(body.pairs.size());
 }
@@ -62,6 +64,15 @@ void RelativePose::check_body(const BodyPairings& body, PoseEstimate& out) noexc
   for (const Pairing& pairing : body.pairs) sources_.push_back({pairing.camera, pairing.entry});
   out.integrity =
       pose_integrity(sights_, sources_, out.used, out.solution, parameters_.axes, parameters_.integrity);
+}
+
+// What calibration does to both poses cancels only as far as it does so alike: it is worked out anew.
+void RelativePose::refer_to_first(PoseEstimate& out) noexcept {
+  std::optional<SeenPose>& first = first_[out.body];
+  if (!out.valid || !out.rotation_valid || (!first && !may_be_first(out))) return;
+  const SeenPose now = seen_pose(out, sights_, sources_, parameters_.integrity.calibration, parameters_.axes);
+  if (!first) first = now;
+  out.motion = motion_between(*first, now);
 }
 
 }  // namespace omma

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "components/estimation/integrity.hpp"
 #include "components/estimation/least_squares.hpp"
+#include "components/pose/body_motion.hpp"
 #include "components/pose/pose_estimate.hpp"
 #include "components/tracker/pairings.hpp"
 #include "fsw/kernel/component.hpp"
@@ -35,12 +37,14 @@ class RelativePose final : public Component {
   void withdraw(const BodyPairings& body, PoseEstimate& out) noexcept;
   void solve_body(const BodyPairings& body, PoseEstimate& out) noexcept;
   void check_body(const BodyPairings& body, PoseEstimate& out) noexcept;
+  void refer_to_first(PoseEstimate& out) noexcept;
 
   RelativePoseParameters parameters_;
   StaticVector<Sight, limits::kTargetPairs> sights_;
   StaticVector<SightSource, limits::kTargetPairs> sources_;
   std::array<Eigen::Quaterniond, limits::kTargetBodies> last_{};
   std::array<bool, limits::kTargetBodies> has_last_{};
+  std::array<std::optional<SeenPose>, limits::kTargetBodies> first_;
 };
 
 }  // namespace omma

@@ -268,6 +268,12 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
   out.alternative_rig_from_body = quaternion(solution.alternative.rotation);
   out.alternative_position_m = vector(solution.alternative.translation);
   out.alternative_chi2 = solution.alternative_chi2;
+  const BodyMotion& motion = pose.motion;
+  out.motion_valid = motion.valid;
+  out.first_frame = motion.first_frame;
+  out.motion = quaternion(motion.since_first.rotation);
+  out.motion_m = vector(motion.since_first.translation);
+  put_matrix(motion.covariance, out.motion_covariance);
 }
 
 void fill(const ApproachEstimate& approach, std::string_view body_name, omma_Approach& out) noexcept {

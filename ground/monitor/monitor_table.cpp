@@ -201,6 +201,13 @@ void add_pose(Table& table, const omma_RelativePose& pose) {
   table.add(TopicId::kRelativePose, style,
             format("  1-sigma        x %.3f  y %.3f  z %.3f deg", sigma(0) * kDegrees, sigma(1) * kDegrees,
                    sigma(2) * kDegrees));
+  if (!pose.motion_valid) return;
+  const YawPitchRoll turned = yaw_pitch_roll(eigen(pose.motion));
+  table.add(
+      TopicId::kRelativePose, style,
+      format("  since frame %-6llu x %+.4f  y %+.4f  z %+.4f m   yaw %+.3f  pitch %+.3f  roll %+.3f deg",
+             static_cast<unsigned long long>(pose.first_frame), pose.motion_m.x, pose.motion_m.y,
+             pose.motion_m.z, turned.yaw * kDegrees, turned.pitch * kDegrees, turned.roll * kDegrees));
 }
 
 void add_approach(Table& table, const omma_Approach& approach) {

@@ -244,6 +244,22 @@ TEST_F(Samples, PositionMayBeValidWhereTheRotationIsNot) {
   EXPECT_EQ(out.integrity.suspect_dot_entry, 17);
 }
 
+TEST_F(Samples, MotionSinceTheFirstPoseIsGivenWithItsFrame) {
+  PoseEstimate pose;
+  pose.motion.valid = true;
+  pose.motion.first_frame = 12;
+  pose.motion.since_first.translation = {1, 2, 3};
+  pose.motion.since_first.rotation = Eigen::Quaterniond(0, 0, 1, 0);
+  pose.motion.covariance(0, 1) = 5;
+  omma_RelativePose out{};
+  fill(pose, "card", out);
+  EXPECT_TRUE(out.motion_valid);
+  EXPECT_EQ(out.first_frame, 12U);
+  EXPECT_EQ(out.motion.y, 1);
+  EXPECT_EQ(out.motion_m.z, 3);
+  EXPECT_EQ(out.motion_covariance[1], 5);
+}
+
 TEST_F(Samples, AttitudesCovarianceIsGivenInBothFrames) {
   AttitudeEstimate attitude;
   attitude.valid = true;

@@ -28,6 +28,7 @@ enum class ExposureState : std::uint8_t {
   kGood,     ///< within the bounds
   kWaiting,  ///< a change is on its way
   kAtLimit,  ///< too dark or too bright, and nothing left to turn
+  kBracket,  ///< not turned: several exposures in turn
 };
 
 class ExposureControl {

@@ -18,19 +18,29 @@ enum class ImageKind : std::uint8_t {
   kFisheyeJ2000,   ///< half the sky about a direction, equal-distance, fixed to the stars
   kFisheyeRig,     ///< the same, fixed to the rig
   kCamera,         ///< a part of one camera's image as it was taken
+  kViewRig,        ///< virtual pan-tilt camera, fixed to the rig
 };
 
 /// How a picture is made of several.
 enum class ImageComposite : std::uint8_t {
   kSingle,
-  kMean,       ///< less noise; several exposures become one of high range
+  kMean,       ///< less noise
   kDarkest,    ///< what stays: passing lights, glare and hits are gone
   kBrightest,  ///< what passed: trails
+  kFused,      ///< several exposures become one of high range
 };
 
 enum class ImageEncoding : std::uint8_t {
   kGrey,           ///< rows × width bytes
   kPredictedZstd,  ///< image_coder.hpp
+};
+
+/// How a grey level from 1 to the largest, 2^bits − 1, stands for light; 0 is not seen. x = (level − 1) /
+/// (largest − 1).
+enum class ImageScale : std::uint8_t {
+  kSquareRoot,  ///< light = most · x²
+  kLinear,      ///< the camera's own grey levels, from 0: light = most · level / largest
+  kAsinh,       ///< asinh(light / soft) from asinh(−1) at x = 0 to asinh(most / soft) at x = 1
 };
 
 struct ImageChunk {
@@ -49,6 +59,13 @@ struct ImageChunk {
   std::uint16_t first_row = 0;
   std::uint16_t rows = 0;
   ImageEncoding encoding = ImageEncoding::kGrey;
+  std::uint8_t bits = 8;  ///< of a pixel: to 8 in one byte, to 16 in two, the low one first
+  ImageScale scale = ImageScale::kSquareRoot;
+  double light_most = 1;  ///< of the largest level [share of white; of kFused: shares a second]
+  double light_soft = 0;  ///< of kAsinh
+  double pan = 0;         ///< of views and fisheyes: where the middle looks [rad]
+  double tilt = 0;
+  double field = 0;         ///< from the left border to the right [rad]; 0: of a camera's own image
   std::uint16_t bytes = 0;  ///< of `pixels` in use
   std::array<std::uint8_t, limits::kImageChunkBytes>
       pixels{};  ///< grey, row after row, top row first; as encoded

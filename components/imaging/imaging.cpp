@@ -143,6 +143,10 @@ void Imaging::describe(ImageChunk& out) const noexcept {
   out.top = is_camera ? static_cast<std::uint16_t>(region.top) : std::uint16_t{0};
   out.width = static_cast<std::uint16_t>(made.width());
   out.height = static_cast<std::uint16_t>(made.height());
+  out.light_most = made.white();
+  out.pan = made.settings().pan;
+  out.tilt = made.settings().tilt;
+  out.field = made.field();
 }
 
 // As many rows as a chunk holds: compressed, half of them again until they fit.

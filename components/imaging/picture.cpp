@@ -23,6 +23,7 @@ Picture::Picture(const PictureSettings& settings, const Mosaic& mosaic)
 int Picture::width() const noexcept {
   switch (settings_.kind) {
     case ImageKind::kView:
+    case ImageKind::kViewRig:
       return view_.width();
     case ImageKind::kFisheyeJ2000:
     case ImageKind::kFisheyeRig:
@@ -37,6 +38,7 @@ int Picture::width() const noexcept {
 int Picture::height() const noexcept {
   switch (settings_.kind) {
     case ImageKind::kView:
+    case ImageKind::kViewRig:
       return view_.height();
     case ImageKind::kFisheyeJ2000:
     case ImageKind::kFisheyeRig:
@@ -45,6 +47,36 @@ int Picture::height() const noexcept {
       return settings_.region.height;
     default:
       return panorama_.height();
+  }
+}
+
+double Picture::white() const noexcept {
+  switch (settings_.kind) {
+    case ImageKind::kView:
+    case ImageKind::kViewRig:
+      return settings_.view.white;
+    case ImageKind::kFisheyeJ2000:
+    case ImageKind::kFisheyeRig:
+      return settings_.fisheye.white;
+    case ImageKind::kCamera:
+      return 1;
+    default:
+      return settings_.panorama.white;
+  }
+}
+
+double Picture::field() const noexcept {
+  switch (settings_.kind) {
+    case ImageKind::kView:
+    case ImageKind::kViewRig:
+      return settings_.view.horizontal_fov;
+    case ImageKind::kFisheyeJ2000:
+    case ImageKind::kFisheyeRig:
+      return settings_.fisheye.field;
+    case ImageKind::kCamera:
+      return 0;
+    default:
+      return 2 * std::numbers::pi;
   }
 }
 
@@ -80,6 +112,7 @@ int Picture::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Qu
   const Eigen::Quaterniond rig_from_view = rig_from_sky * pan_tilt(settings_.pan, settings_.tilt);
   switch (settings_.kind) {
     case ImageKind::kView:
+    case ImageKind::kViewRig:
       return view_.render_rows(mosaic, images, rig_from_view, first_row, rows, out);
     case ImageKind::kFisheyeJ2000:
     case ImageKind::kFisheyeRig:

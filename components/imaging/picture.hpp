@@ -42,6 +42,8 @@ class Picture {
   int width() const noexcept;
   int height() const noexcept;
   bool fixed_to_sky() const noexcept;
+  double white() const noexcept;  ///< light shown as 255 [share of the cameras' white level]
+  double field() const noexcept;  ///< from the left border to the right [rad]; 0 of a camera's image
   /// Another picture of the same sizes. @param kind  not kCamera
   /// @param field  of a view (below π) or a fisheye (to 2π) [rad]; of no meaning for panoramas
   /// @return false (and nothing changed) where it cannot be

@@ -120,7 +120,7 @@ void fill(const ExposureReport& report, omma_FrameSet& out) noexcept {
     const CameraExposure& camera = report.cameras[c];
     omma_CameraStatus& status = out.cameras._buffer[c];
     status.exposures_refused = camera.refused;
-    if (!camera.automatic) continue;
+    if (!camera.automatic && camera.state != ExposureState::kBracket) continue;
     status.exposure_state = after_first<omma_ExposureState>(camera.state);
     status.full_share = static_cast<float>(camera.seen.full);
   }
@@ -392,6 +392,13 @@ void fill(const ImageChunk& chunk, omma_ImageChunk& out) noexcept {
   out.first_row = chunk.first_row;
   out.rows = chunk.rows;
   out.encoding = same<omma_ImageEncoding>(chunk.encoding);
+  out.bits = chunk.bits;
+  out.scale = same<omma_ImageScale>(chunk.scale);
+  out.light_most = chunk.light_most;
+  out.light_soft = chunk.light_soft;
+  out.pan_rad = chunk.pan;
+  out.tilt_rad = chunk.tilt;
+  out.field_rad = chunk.field;
   const std::size_t bytes = std::min<std::size_t>(chunk.pixels.size(), chunk.bytes);
   out.pixels._length = static_cast<std::uint32_t>(bytes);
   std::copy_n(chunk.pixels.begin(), bytes, out.pixels._buffer);

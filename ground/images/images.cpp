@@ -24,14 +24,14 @@ struct Arguments {
 };
 
 const char* name_of(omma_ImageKind kind) {
-  static constexpr std::array kNames{"panorama_j2000", "panorama_rig", "view",
-                                     "fisheye_j2000",  "fisheye_rig",  "camera"};
+  static constexpr std::array kNames{"panorama_j2000", "panorama_rig", "view",    "fisheye_j2000",
+                                     "fisheye_rig",    "camera",       "view_rig"};
   const auto i = static_cast<std::size_t>(kind);
   return i < kNames.size() ? kNames[i] : "unknown";
 }
 
 const char* name_of(omma_ImageComposite composite) {
-  static constexpr std::array kNames{"single", "mean", "darkest", "brightest"};
+  static constexpr std::array kNames{"single", "mean", "darkest", "brightest", "fused"};
   const auto i = static_cast<std::size_t>(composite);
   return i < kNames.size() ? kNames[i] : "unknown";
 }

@@ -25,7 +25,7 @@ const char* name_of(omma_FrameState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 const char* name_of(omma_ExposureState state) {
-  static constexpr const char* kNames[] = {"fixed", "good", "waiting", "at its limit"};
+  static constexpr const char* kNames[] = {"fixed", "good", "waiting", "at its limit", "bracket"};
   return kNames[static_cast<std::size_t>(state)];
 }
 const char* name_of(omma_TrackState state) {

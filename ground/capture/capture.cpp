@@ -1,23 +1,20 @@
 #include "ground/capture/capture.hpp"
 
-#include <fcntl.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <list>
 #include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
-#include "fsw/kernel/input_error.hpp"
 #include "ground/capture/capture_options.hpp"
-#include "ground/capture/frame_folder.hpp"
 #include "ground/capture/half_blocks.hpp"
+#include "ground/capture/recorder.hpp"
+#include "ground/capture/view_server.hpp"
 #include "ground/interrupt.hpp"
-#include "hal/sources/live_drivers.hpp"
 
 namespace omma::ground {
 namespace {
@@ -26,126 +23,21 @@ using Clock = std::chrono::steady_clock;
 
 struct CaptureOptions {
   CaptureArguments cameras;
-  std::string output;
-  std::uint64_t frames = 0;
+  RecorderOptions recorder;
   double seconds = 0;
-  bool compress = false;
   bool view = false;
+  std::string serve;  // [ADDRESS:]PORT; empty: no page
 };
-
-constexpr std::size_t kRoomBytes = 64U << 20U;  // of each camera, for what the disk does not take at once
-
-/// One camera being captured: its frames are written by a thread of their own.
-class Recorder {
- public:
-  Recorder(const CaptureCamera& camera, const CaptureOptions& options, CaptureStart& start)
-      : name_(camera.name),
-        frames_wanted_(options.frames),
-        numbers_(start, camera.setup.frame_rate_hz > 0 ? std::llround(1e9 / camera.setup.frame_rate_hz) : 0) {
-    if (!options.output.empty())
-      folder_ = std::make_unique<FrameFolder>(options.output, camera.name,
-                                              options.compress ? PngEffort::kFast : PngEffort::kStored);
-    auto source = make_frame_source(camera.driver, camera.setup);
-    const auto slots =
-        static_cast<std::uint32_t>(std::clamp<std::size_t>(kRoomBytes / source->shape().bytes(), 8, 256));
-    camera_ = std::make_unique<LiveCamera>(std::move(source), std::make_shared<FramePhase>(1),
-                                           camera.setup.timeout_ms, slots);
-  }
-  ~Recorder() { stop(); }
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
-
-  void start() {
-    writer_ = std::thread([this] { write(); });
-  }
-  /// What the device gave until now is still written.
-  void stop() {
-    stop_.store(true);
-    if (writer_.joinable()) writer_.join();
-  }
-  bool done() const { return done_.load(); }
-  const std::string& name() const { return name_; }
-  CameraHealth health() const { return camera_->health(); }
-  std::uint64_t taken() const { return taken_.load(); }
-  std::uint64_t bytes() const { return folder_ ? folder_->bytes() : 0; }
-  const std::string& failure() const { return failure_; }
-  const GreyShape& shape() const { return camera_->shape(); }
-  /// Frames taken a second, by the device's stamps.
-  double rate_hz() const {
-    const double stamped = static_cast<double>(elapsed(first_stamp_ns_, last_stamp_ns_)) * 1e-9;
-    return stamped > 0 ? static_cast<double>(taken() - 1) / stamped : 0;
-  }
-  double seconds() const { return std::chrono::duration<double>(last_ - first_).count(); }
-  /// The newest image, where one is asked for.
-  void view(bool on) { view_.store(on); }
-  std::string picture() {
-    const std::lock_guard<std::mutex> lock(picture_mutex_);
-    return picture_;
-  }
-
- private:
-  void write() {
-    try {
-      for (;;) {
-        const bool last_round = stop_.load();
-        while (frames_wanted_ == 0 || taken_.load() < frames_wanted_) {
-          const auto frame = camera_->next();
-          if (!frame) break;
-          keep(*frame);
-        }
-        if (last_round || (frames_wanted_ > 0 && taken_.load() >= frames_wanted_)) break;
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-      }
-    } catch (const std::exception& error) {
-      failure_ = error.what();
-    }
-    done_.store(true);
-  }
-
-  void keep(const LiveFrame& frame) {
-    const std::uint64_t number = numbers_.number(frame.time_ns, frame.sequence);
-    if (folder_) folder_->write(number, frame);
-    last_ = Clock::now();
-    last_stamp_ns_ = frame.time_ns;
-    if (taken_.load() == 0) {
-      first_ = last_;
-      first_stamp_ns_ = frame.time_ns;
-    }
-    taken_.fetch_add(1);
-    if (view_.exchange(false)) {
-      std::string text = half_blocks(frame.image, columns_, rows_);
-      const std::lock_guard<std::mutex> lock(picture_mutex_);
-      picture_ = std::move(text);
-    }
-  }
-
-  std::string name_;
-  std::uint64_t frames_wanted_;
-  FrameNumbers numbers_;
-  std::unique_ptr<FrameFolder> folder_;
-  std::unique_ptr<LiveCamera> camera_;
-  Clock::time_point first_{}, last_{};
-  TimeNs first_stamp_ns_ = 0, last_stamp_ns_ = 0;
-  std::atomic<std::uint64_t> taken_{0};
-  std::atomic<bool> stop_{false};
-  std::atomic<bool> done_{false};
-  std::atomic<bool> view_{false};
-  std::string failure_;  // read after done
-  std::mutex picture_mutex_;
-  std::string picture_;
-  int columns_ = 100;
-  int rows_ = 30;
-  std::thread writer_;
-};
-
-using Recorders = std::list<Recorder>;
 
 void show(Recorders& recorders) {
+  constexpr int kColumns = 100, kRows = 30;
   std::printf("\033[H\033[2J");
   for (Recorder& recorder : recorders) {
-    std::printf("%s  %llu frames\n%s", recorder.name().c_str(),
-                static_cast<unsigned long long>(recorder.taken()), recorder.picture().c_str());
-    recorder.view(true);
+    const auto shown = recorder.shown().newest();
+    std::printf("%s  %llu frames, %.1f Hz\n%s", recorder.name().c_str(),
+                static_cast<unsigned long long>(recorder.taken()), recorder.newest_rate_hz(),
+                shown ? half_blocks(shown->image.view(), kColumns, kRows).c_str() : "");
+    recorder.shown().ask();
   }
   std::fflush(stdout);
 }
@@ -192,8 +84,7 @@ bool print_result(const Recorders& recorders) {
         recorder.shape().height, recorder.rate_hz(), health.gaps, health.damaged, health.overrun,
         health.losses);
     if (!recorder.failure().empty()) std::fprintf(stderr, "omma: %s\n", recorder.failure().c_str());
-    complete = complete && recorder.failure().empty() && recorder.taken() > 0 &&
-               health.gaps + health.damaged + health.overrun + health.losses == 0;
+    complete = complete && recorder.complete();
     total_bytes += static_cast<double>(recorder.bytes());
     longest = std::max(longest, recorder.seconds());
   }
@@ -204,14 +95,21 @@ bool print_result(const Recorders& recorders) {
 
 int capture(const CaptureOptions& options) {
   const std::vector<CaptureCamera> cameras = capture_cameras(options.cameras);
+  std::optional<ViewAddress> address;
+  if (!options.serve.empty()) address = read_view_address(options.serve);
   catch_interrupts();
   CaptureStart start;
   Recorders recorders;
-  for (const CaptureCamera& camera : cameras) recorders.emplace_back(camera, options, start);
+  for (const CaptureCamera& camera : cameras) recorders.emplace_back(camera, options.recorder, start);
+  std::optional<ViewServer> server;
+  if (address) {
+    server.emplace(recorders, *address);
+    std::fprintf(stderr, "live view: %s\n", url_of(server->address()).c_str());
+  }
   for (Recorder& recorder : recorders) recorder.start();
   wait_for_end(recorders, options);
   for (Recorder& recorder : recorders) recorder.stop();
-  if (!options.output.empty()) {
+  if (!options.recorder.output.empty()) {
     const Clock::time_point begin = Clock::now();
     ::sync();
     std::printf("all on the disk %.2f s after the last frame\n",
@@ -238,11 +136,13 @@ void add_capture(CLI::App& app, CommandContext& context) {
       ->check(CLI::Range(10, 60000));
   command->add_option("--set", a.controls,
                       "NAME=VALUE: a control, for instance exposure=100; may be repeated");
-  command->add_option("--output", o->output, "Folder; without it frames are only counted");
-  command->add_option("--frames", o->frames, "Stop after so many of each camera");
+  command->add_option("--output", o->recorder.output, "Folder; without it frames are only counted");
+  command->add_option("--frames", o->recorder.frames, "Stop after so many of each camera");
   command->add_option("--seconds", o->seconds, "Stop after so long");
-  command->add_flag("--compress", o->compress, "Smaller files, more work");
+  command->add_flag("--compress", o->recorder.compress, "Smaller files, more work");
   command->add_flag("--view", o->view, "Show the cameras in the terminal");
+  command->add_option("--serve", o->serve,
+                      "Show the cameras in a browser: PORT for this machine's, 0.0.0.0:PORT for others'");
   command->callback([o, &context] { context.exit_code = capture(*o); });
 }
 

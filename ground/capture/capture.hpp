@@ -1,4 +1,5 @@
-// `omma capture`: frames of live cameras to disk, every one of them, and a live view in the terminal.
+// `omma capture`: frames of live cameras to disk, every one of them, and a live view in the terminal or a
+// browser.
 #pragma once
 
 #include "ground/command.hpp"

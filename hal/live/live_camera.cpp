@@ -179,7 +179,7 @@ std::optional<LiveFrame> LiveCamera::next() noexcept {
   if (!release_and_peek()) return std::nullopt;
   in_use_ = true;
   const Slot& oldest = slot(released_.load(std::memory_order_relaxed));
-  return LiveFrame{view(oldest), oldest.time_ns, oldest.sequence};
+  return LiveFrame{view(oldest), oldest.time_ns, oldest.sequence, oldest.settings};
 }
 
 Frame LiveCamera::grab(std::uint64_t number, TimeNs trigger_time_ns) noexcept {

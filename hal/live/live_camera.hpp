@@ -25,6 +25,7 @@ struct LiveFrame {
   ImageView image;  ///< valid until the next `next`
   TimeNs time_ns = 0;
   std::uint32_t sequence = 0;
+  CameraSettings settings{};  ///< those it was taken with, as far as the driver knows
 };
 
 class LiveCamera final : public CameraDriver {

@@ -8,6 +8,7 @@ int bench_attitude(int argc, char** argv);
 int bench_axes(int argc, char** argv);
 int bench_blink(int argc, char** argv);
 int bench_blocked(int argc, char** argv);
+int bench_capture(int argc, char** argv);
 int bench_extract(int argc, char** argv);
 int bench_extract_frames(const char* folder, int argc, char** argv);  // omma-bench extract --frames
 int bench_filter(int argc, char** argv);

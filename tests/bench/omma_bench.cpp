@@ -21,6 +21,8 @@ constexpr Bench kBenches[] = {
      "axes of a swung platform and their shims: error of the whole fit against a circle, NEES"},
     {"blink", omma::bench_blink, "lights told apart by their blinking codes: right, wrong, open, time"},
     {"blocked", omma::bench_blocked, "lateness of rate groups while a telemetry sink blocks for a second"},
+    {"capture", omma::bench_capture,
+     "three simulated cameras to disk at rising rates: frame sets kept, lost, MB/s"},
     {"extract", omma::bench_extract,
      "dots of synthetic images: time over memcpy, error over bound, NEES, recall, false dots"},
     {"filter", omma::bench_filter,

@@ -17,12 +17,11 @@ DotExtractor::DotExtractor(int width, int height)
       halved_(width, height),
       coarse_(std::max(3, width / 2), std::max(3, height / 2)),
       halved_mask_(std::max(3, width / 2), std::max(3, height / 2)),
-      measurement_(width, height, kCandidates) {
+      measurement_(width, height, kCandidates),
+      best_(kCandidates) {
   candidates_.reserve(kCandidates);
   coarse_candidates_.reserve(kCandidates / 2);
   found_.reserve(kCandidates);
-  ranking_.reserve(kCandidates);
-  ranking_scratch_.reserve(kCandidates);
 }
 
 void DotExtractor::extract(const ImageView& image, const ExtractorParameters& parameters,
@@ -38,7 +37,7 @@ void DotExtractor::extract(const ImageView& image, const ExtractorParameters& pa
   if (parameters.polarity != DotPolarity::kDark) search(image, parameters, false);
   list.background = fine_.background().median_level();
   list.noise = fine_.background().median_noise();
-  keep_best(list);
+  best_.hand_over(found_, overflow_, list);
 }
 
 void DotExtractor::search(const ImageView& image, const ExtractorParameters& parameters,
@@ -85,26 +84,6 @@ void DotExtractor::add_wide(const ImageView& image, const ExtractorParameters& p
       ++overflow_;
     }
   }
-}
-
-// The best by signal-to-noise ratio, handed over brightest first; ties in the order of the measurement, which
-// is the same on every machine.
-void DotExtractor::keep_best(DotList& list) noexcept {
-  const std::size_t kept = std::min(found_.size(), limits::kDotsPerCamera);
-  list.dropped = static_cast<std::uint32_t>(found_.size() - kept) + overflow_;
-  ranking_.resize(found_.size());
-  for (std::size_t i = 0; i < found_.size(); ++i) ranking_[i].index = static_cast<std::uint32_t>(i);
-  ranking_scratch_.resize(found_.size());
-  const auto rank_by = [this](float Dot::*value) {
-    for (Ranked& ranked : ranking_) ranked.key = falling_key(found_[ranked.index].*value);
-    sort_by_key(ranking_, {ranking_scratch_.data(), ranking_.size()});
-  };
-  if (kept < found_.size()) {
-    rank_by(&Dot::snr);
-    ranking_.resize(kept);
-  }
-  rank_by(&Dot::flux);
-  for (const Ranked& ranked : ranking_) list.dots.push_back(found_[ranked.index]);
 }
 
 }  // namespace omma

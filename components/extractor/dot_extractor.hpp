@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "components/extractor/best_dots.hpp"
 #include "components/extractor/candidate_search.hpp"
 #include "components/extractor/dot.hpp"
 #include "components/extractor/dot_measurement.hpp"
 #include "components/extractor/extractor_parameters.hpp"
-#include "components/extractor/falling_order.hpp"
 #include "components/extractor/halved_image.hpp"
 #include "hal/image.hpp"
 
@@ -38,7 +38,6 @@ class DotExtractor {
   void search(const ImageView& image, const ExtractorParameters& parameters, bool invert) noexcept;
   void add_wide(const ImageView& image, const ExtractorParameters& parameters, bool invert,
                 float width) noexcept;
-  void keep_best(DotList& list) noexcept;
 
   static constexpr std::size_t kCandidates = 4096;
 
@@ -53,7 +52,7 @@ class DotExtractor {
   std::vector<Candidate> candidates_, coarse_candidates_;
   DotMeasurement measurement_;
   std::vector<Dot> found_;
-  std::vector<Ranked> ranking_, ranking_scratch_;
+  BestDots best_;
   std::uint32_t overflow_ = 0;  // candidates beyond the scratch
 };
 

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "components/extractor/classical/classical_parameters.hpp"
+
 namespace omma {
 
 /// Which side of the background the dots are on.
@@ -12,7 +14,18 @@ enum class DotPolarity : std::uint8_t {
   kBoth,    ///< each image is searched twice
 };
 
+/// How dots are found. What is below is the matched extractor's, except polarity, gain, black level, min_snr,
+/// max_diameter and elongation, which are everybody's.
+enum class ExtractorAlgorithm : std::uint8_t {
+  kMatched,      ///< DotExtractor
+  kMlas,         ///< classical pipelines: algorithm 4 of the dissertation,
+  kSmallTarget,  ///< 5
+  kStars,        ///< and 7
+};
+
 struct ExtractorParameters {
+  ExtractorAlgorithm algorithm = ExtractorAlgorithm::kMatched;  ///< fixed at start-up
+  ClassicalParameters classical;                                ///< fixed at start-up
   DotPolarity polarity = DotPolarity::kBright;
   /// Detection: excess of the smoothed image over the local background, in its own standard deviations.
   float threshold = 5.0F;

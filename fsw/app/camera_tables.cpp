@@ -9,6 +9,8 @@
 namespace omma {
 namespace {
 
+constexpr std::size_t kMostOthers = 3;  // kinds of things one camera looks for besides
+
 float read_float(const TomlTable& table, const char* key, Range range, float otherwise) {
   return static_cast<float>(table.number(key, range, otherwise));
 }
@@ -58,13 +60,47 @@ void add_polygon(const TomlTable& table, PixelMask& mask) {
   table.refuse_unknown_keys();
 }
 
-}  // namespace
+// The keys of the one algorithm are not the other's.
+void refuse_keys(const TomlTable& table, std::initializer_list<const char*> keys, const char* wanted,
+                 const std::string& found) {
+  for (const char* key : keys)
+    if (table.has(key)) throw table.error(key, wanted, "algorithm = \"" + found + "\"");
+}
 
-ExtractorParameters read_extractor(const TomlTable& camera) {
+int read_odd(const TomlTable& table, const char* key, Range range, int otherwise) {
+  const auto number = static_cast<int>(table.integer(key, range, otherwise));
+  if (number % 2 == 0) throw table.error(key, "an odd number of pixels", std::to_string(number));
+  return number;
+}
+
+void read_classical(const TomlTable& table, ExtractorParameters& p) {
+  ClassicalParameters& classical = p.classical;
+  if (p.algorithm == ExtractorAlgorithm::kStars) classical.deviations = 3.5;
+  classical.window = read_odd(table, "local_window_px", {3, 501}, classical.window);
+  classical.deviations = table.number("local_deviations", {-5, 50}, classical.deviations);
+  classical.background_window = read_odd(table, "background_window_px", {3, 31}, classical.background_window);
+  classical.least_area = static_cast<int>(table.integer("least_area_px", {1, 10000}, classical.least_area));
+}
+
+ExtractorAlgorithm read_algorithm(const TomlTable& table) {
+  const std::string algorithm = table.text("algorithm", "omma");
+  if (algorithm == "omma") {
+    refuse_keys(table, {"local_window_px", "local_deviations", "background_window_px", "least_area_px"},
+                "an algorithm of \"mlas\", \"small-target\" or \"stars\" with it", algorithm);
+    return ExtractorAlgorithm::kMatched;
+  }
+  refuse_keys(table, {"threshold", "max_point_sigma_px", "min_sigma_px", "keep_hot_pixels"},
+              "an algorithm of \"omma\" with it", algorithm);
+  if (algorithm == "mlas") return ExtractorAlgorithm::kMlas;
+  if (algorithm == "small-target") return ExtractorAlgorithm::kSmallTarget;
+  if (algorithm == "stars") return ExtractorAlgorithm::kStars;
+  throw table.error("algorithm", "\"omma\", \"mlas\", \"small-target\" or \"stars\"", algorithm);
+}
+
+ExtractorParameters read_extractor(const TomlTable& table) {
   ExtractorParameters p;
-  const auto found = camera.table_if("extractor");
-  if (!found) return p;
-  const TomlTable& table = *found;
+  p.algorithm = read_algorithm(table);
+  if (p.algorithm != ExtractorAlgorithm::kMatched) read_classical(table, p);
   // What is looked for chooses the rest, each of which may be given all the same.
   const std::string kind = table.text("for", "all");
   if (kind == "stars") {
@@ -86,6 +122,20 @@ ExtractorParameters read_extractor(const TomlTable& camera) {
   p.keep_hot_pixels = table.flag("keep_hot_pixels", p.keep_hot_pixels);
   table.refuse_unknown_keys();
   return p;
+}
+
+}  // namespace
+
+void read_extractors(const TomlTable& camera, ExtractorCamera& dots) {
+  if (const auto table = camera.table_if("extractor")) dots.parameters = read_extractor(*table);
+  for (const TomlTable& table : camera.tables_if("also_extractor")) {
+    dots.also.push_back(read_extractor(table));
+    for (const char* key : {"gain_e_per_level", "black_level"})
+      if (table.has(key)) throw table.error(key, "it in the camera's `extractor` table", "it here");
+  }
+  if (dots.also.size() > kMostOthers)
+    throw camera.error("also_extractor", "at most " + std::to_string(kMostOthers) + " tables",
+                       std::to_string(dots.also.size()));
 }
 
 void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots) {

@@ -12,8 +12,8 @@ namespace omma {
 // Each reads the table of that name inside `camera`, where there is one; InputError names file, line and
 // field.
 
-/// extractor: what is looked for.
-ExtractorParameters read_extractor(const TomlTable& camera);
+/// extractor: what is looked for and how; also_extractor: tables for other kinds of things; into `dots`.
+void read_extractors(const TomlTable& camera, ExtractorCamera& dots);
 /// sensor: black frame, response, fill factor, illumination; into `dots`, whose size and parameters are set.
 void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots);
 /// mask: lens circle, picture, boxes, polygons, glare; into `dots`, whose size is set.

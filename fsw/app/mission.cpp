@@ -92,7 +92,7 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, d
     read_driver(table, lens, frame_rate_hz, camera);
     camera.dots.width = lens.width();
     camera.dots.height = lens.height();
-    camera.dots.parameters = read_extractor(table);
+    read_extractors(table, camera.dots);
     read_sensor(table, lens, camera.dots);
     read_mask(table, lens, camera.dots);
     camera.exposure = read_exposure(table);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "components/extractor/step_budget.hpp"
 #include "fsw/app/operations.hpp"
 #include "fsw/app/program_dictionary.hpp"
 
@@ -236,7 +237,11 @@ RateGroupTable Topology::table() {
                                  {cameras, microseconds(2000)},
                                  {exposure, microseconds(500)},
                                  {lookout, microseconds(500), {}, 1, kAttitudeModes},
-                                 {extractor, microseconds(10000), {}, pool_.workers(), kAttitudeModes},
+                                 {extractor,
+                                  extraction_budget(extractor_cameras(mission_), pool_.workers()),
+                                  {},
+                                  pool_.workers(),
+                                  kAttitudeModes},
                                  {tracker, microseconds(15000), overloaded, 1, kAttitudeModes},
                                  {attitude, microseconds(2000), {}, 1, kAttitudeModes},
                                  {pose, microseconds(2000), {}, 1, kAllProductsModes},

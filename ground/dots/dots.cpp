@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "components/extractor/classical/pipelines.hpp"
 #include "components/extractor/dot_extractor.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/annotate.hpp"
-#include "ground/dots/pipelines.hpp"
 #include "ground/draw/stretch.hpp"
 #include "ground/format.hpp"
 #include "ground/page/page.hpp"
@@ -97,30 +97,31 @@ std::vector<Mark> own_dots(const ImageView& image, const DotsArguments& argument
   return marks;
 }
 
-std::vector<Mark> classical_dots(const GreyImage& image, const DotsArguments& arguments,
+ClassicalAlgorithm classical_algorithm(const std::string& name) {
+  if (name == "mlas") return ClassicalAlgorithm::kMlas;
+  return name == "small-target" ? ClassicalAlgorithm::kSmallTarget : ClassicalAlgorithm::kStars;
+}
+
+std::vector<Mark> classical_dots(const ImageView& image, const DotsArguments& arguments,
                                  const StageObserver& observer) {
-  std::vector<ClassicalDot> dots;
-  if (arguments.algorithm == "mlas") {
-    dots = mlas_dots(image, arguments.classical, observer);
-  } else if (arguments.algorithm == "small-target") {
-    dots = small_target_dots(image, arguments.classical, observer);
-  } else {
-    GreyImage black;
-    if (!arguments.black_frame.empty()) {
-      black = grey_image(read_image(arguments.black_frame).view());
-      if (black.width != image.width || black.height != image.height)
-        throw InputError(arguments.black_frame, 0, "size",
-                         format("%d x %d pixels, as the image", image.width, image.height),
-                         format("%d x %d", black.width, black.height));
-    }
-    dots = star_dots(image, black, arguments.classical, observer);
+  ClassicalPipelines pipelines(image.width, image.height, arguments.classical);
+  take_levels(image, false, pipelines.original());
+  if (!arguments.black_frame.empty()) {
+    const GreyImage black = grey_image(read_image(arguments.black_frame).view());
+    if (black.width != image.width || black.height != image.height)
+      throw InputError(arguments.black_frame, 0, "size",
+                       format("%d x %d pixels, as the image", image.width, image.height),
+                       format("%d x %d", black.width, black.height));
+    subtract(black, pipelines.original());
   }
   std::printf("u_px,v_px,area_px\n");
   std::vector<Mark> marks;
-  for (const ClassicalDot& dot : dots) {
+  for (const ClassicalDot& dot : pipelines.run(classical_algorithm(arguments.algorithm), &observer)) {
     std::printf("%.3f,%.3f,%d\n", dot.pixel.x(), dot.pixel.y(), dot.area);
     marks.push_back({dot.pixel, MarkKind::kPaired, {}, 0});
   }
+  if (pipelines.dropped() > 0)
+    std::fprintf(stderr, "%u more, of less light, are not listed\n", pipelines.dropped());
   return marks;
 }
 
@@ -141,8 +142,8 @@ int dots(DotsArguments arguments) {
   const StageObserver observer = stage_writer(arguments.stages);
   if (arguments.algorithm == "omma" && observer) show_own_stages(view, arguments.extractor, observer);
   Annotation annotation;
-  annotation.marks = arguments.algorithm == "omma" ? own_dots(view, arguments)
-                                                   : classical_dots(grey_image(view), arguments, observer);
+  annotation.marks =
+      arguments.algorithm == "omma" ? own_dots(view, arguments) : classical_dots(view, arguments, observer);
   std::fprintf(stderr, "%zu dots\n", annotation.marks.size());
   if (!arguments.annotated.empty()) {
     annotation.title = arguments.algorithm + ": " + std::to_string(annotation.marks.size()) + " dots";

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "components/catalogue/star.hpp"
-#include "ground/dots/grey_image.hpp"
+#include "components/extractor/classical/grey_image.hpp"
 #include "sim/scenario.hpp"
 
 namespace omma::ground {

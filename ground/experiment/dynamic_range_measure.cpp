@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "components/extractor/classical/pipelines.hpp"
 #include "components/extractor/dot_extractor.hpp"
-#include "ground/dots/pipelines.hpp"
 #include "ground/experiment/dynamic_range.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "sim/camera_renderer.hpp"
@@ -91,9 +91,11 @@ Places own_dots(const GreyImage& grey, double white) {
   return places;
 }
 
-Places classical_dots(const GreyImage& image, const GreyImage& black_frame) {
+Places classical_dots(const GreyImage& image) {
+  ClassicalPipelines pipelines(image.width, image.height, {});
+  pipelines.original() = image;
   Places places;
-  for (const ClassicalDot& dot : star_dots(image, black_frame, {}, {})) places.push_back(dot.pixel);
+  for (const ClassicalDot& dot : pipelines.run(ClassicalAlgorithm::kStars)) places.push_back(dot.pixel);
   return places;
 }
 
@@ -158,7 +160,7 @@ SequenceResult judge(const Sequence& sequence, const std::vector<WantedStar>& wa
   std::vector<Places> own;
   for (const GreyImage& image : sequence.images) {
     clean.push_back(less(image, sequence.black_frame));
-    classical.push_back(classical_dots(image, sequence.black_frame));
+    classical.push_back(classical_dots(clean.back()));
     own.push_back(own_dots(clean.back(), sequence.white_level));
   }
   const auto count = static_cast<float>(clean.size());

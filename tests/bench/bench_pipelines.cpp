@@ -1,12 +1,12 @@
 // The extraction pipelines side by side on the same rendered frames with truth: star frames, frames with the
 // card, frames with the Moon.
+#include <Eigen/LU>
+#include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <memory>
 
-#include "components/extractor/dot_extractor.hpp"
+#include "components/extractor/camera_dots.hpp"
 #include "fsw/app/mission.hpp"
-#include "ground/dots/pipelines.hpp"
 #include "ground/report/truth.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/benches.hpp"
@@ -16,8 +16,9 @@
 namespace omma {
 namespace {
 
-constexpr double kNear = 1.5;  // a dot this near to a true spot is it [px]
-constexpr double kCounts = 7;  // signal-to-noise ratio from which a missed spot is counted
+constexpr double kNear = 1.5;            // a dot this near to a true spot is it [px]
+constexpr double kStarDeviations = 3.5;  // with 2.5 false dots outnumber the stars
+constexpr double kCounts = 7;            // signal-to-noise ratio from which a missed spot is counted
 
 struct ShownFrame {
   Image image;
@@ -28,39 +29,41 @@ struct ShownFrame {
 
 struct Row {
   int images = 0, found = 0, missed = 0, false_dots = 0;
-  double squared_error = 0;
+  double squared_error = 0, nees = 0;
   std::vector<double> times;
 };
 
-using Extract = std::function<std::vector<Eigen::Vector2d>(const ShownFrame&, double& microseconds)>;
+// As they fly: the camera's own parameters, the scratch made once and in the caches.
+class Algorithm {
+ public:
+  Algorithm(const char* name, ExtractorAlgorithm algorithm) : name_(name), algorithm_(algorithm) {}
+  const char* name() const { return name_; }
 
-std::vector<Eigen::Vector2d> own(const ShownFrame& frame, double& us) {
-  ImageView view = frame.image.view();
-  view.white_level = frame.white_level;
-  DotExtractor extractor(view.width, view.height);
-  const auto list = std::make_unique<DotList>();
-  extractor.extract(view, frame.parameters, *list);  // the scratch is in the caches of a flight too
-  us = microseconds([&] { extractor.extract(view, frame.parameters, *list); });
-  std::vector<Eigen::Vector2d> places;
-  for (const Dot& dot : list->dots) places.push_back(dot.pixel);
-  return places;
-}
+  const DotList& find(const ShownFrame& frame, double& us) {
+    ImageView view = frame.image.view();
+    view.white_level = frame.white_level;
+    ExtractorCamera camera;
+    camera.width = view.width;
+    camera.height = view.height;
+    camera.parameters = frame.parameters;
+    camera.parameters.algorithm = algorithm_;
+    if (algorithm_ == ExtractorAlgorithm::kStars) camera.parameters.classical.deviations = kStarDeviations;
+    CameraDots dots(camera);
+    dots.find(view, *list_);
+    us = microseconds([&] { dots.find(view, *list_); });
+    return *list_;
+  }
 
-template <class Pipeline>
-Extract classical(Pipeline&& pipeline) {
-  return [pipeline](const ShownFrame& frame, double& us) {
-    std::vector<ground::ClassicalDot> dots;
-    us = microseconds([&] { dots = pipeline(ground::grey_image(frame.image.view())); });
-    std::vector<Eigen::Vector2d> places;
-    for (const ground::ClassicalDot& dot : dots) places.push_back(dot.pixel);
-    return places;
-  };
-}
+ private:
+  const char* name_;
+  ExtractorAlgorithm algorithm_;
+  std::unique_ptr<DotList> list_ = std::make_unique<DotList>();
+};
 
 // Adds to the row, and to `marked` what became of each place.
-void judge(const ShownFrame& frame, const Extract& extract, Row& row, std::vector<MarkedPlace>& marked) {
+void judge(const ShownFrame& frame, Algorithm& algorithm, Row& row, std::vector<MarkedPlace>& marked) {
   double us = 0;
-  const std::vector<Eigen::Vector2d> places = extract(frame, us);
+  const auto& places = algorithm.find(frame, us).dots;
   row.times.push_back(us);
   ++row.images;
   std::vector<bool> used(places.size(), false);
@@ -68,7 +71,7 @@ void judge(const ShownFrame& frame, const Extract& extract, Row& row, std::vecto
     std::size_t nearest = places.size();
     double least = kNear;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const double distance = (places[i] - spot.pixel).norm();
+      const double distance = (places[i].pixel - spot.pixel).norm();
       if (used[i] || distance >= least) continue;
       nearest = i;
       least = distance;
@@ -77,8 +80,10 @@ void judge(const ShownFrame& frame, const Extract& extract, Row& row, std::vecto
     if (spot.snr < kCounts || spot.kind == ground::TruthSpot::Kind::kMoon) continue;
     if (nearest < places.size()) {
       ++row.found;
-      marked.push_back({places[nearest], PanelMark::kFound});
-      row.squared_error += least * least;
+      marked.push_back({places[nearest].pixel, PanelMark::kFound});
+      const Eigen::Vector2d error = places[nearest].pixel - spot.pixel;
+      row.squared_error += error.squaredNorm();
+      row.nees += error.dot(places[nearest].covariance.inverse() * error);
     } else {
       ++row.missed;
       marked.push_back({spot.pixel, PanelMark::kMissed});
@@ -86,7 +91,7 @@ void judge(const ShownFrame& frame, const Extract& extract, Row& row, std::vecto
   }
   row.false_dots += static_cast<int>(std::count(used.begin(), used.end(), false));
   for (std::size_t i = 0; i < places.size(); ++i)
-    if (!used[i]) marked.push_back({places[i], PanelMark::kFalse});
+    if (!used[i]) marked.push_back({places[i].pixel, PanelMark::kFalse});
 }
 
 // What a frame of its kind is shown about: the middle of the card, the Moon, the image.
@@ -114,17 +119,10 @@ int bench_pipelines(int argc, char** argv) {
   const Mission mission = read_mission(text_option(argc, argv, "--mission", "config/demo.toml"));
   const auto truth = ground::read_truth(folder / "truth.jsonl", static_cast<int>(mission.cameras.size()));
   const auto every = static_cast<std::uint64_t>(std::max(1, option(argc, argv, "--every", 20)));
-  // The factor of the local threshold at which each gives up about as many spots as it makes false ones.
-  const ground::ClassicalParameters parameters;
-  ground::ClassicalParameters for_stars;
-  for_stars.deviations = 3.5;
-  const std::pair<const char*, Extract> algorithms[] = {
-      {"omma", own},
-      {"MLAS (4)", classical([&](const ground::GreyImage& i) { return mlas_dots(i, parameters, {}); })},
-      {"small target (5)",
-       classical([&](const ground::GreyImage& i) { return small_target_dots(i, parameters, {}); })},
-      {"stars (7)", classical([&](const ground::GreyImage& i) { return star_dots(i, {}, for_stars, {}); })},
-  };
+  Algorithm algorithms[] = {{"omma", ExtractorAlgorithm::kMatched},
+                            {"MLAS (4)", ExtractorAlgorithm::kMlas},
+                            {"small target (5)", ExtractorAlgorithm::kSmallTarget},
+                            {"stars (7)", ExtractorAlgorithm::kStars}};
   const char* kinds[] = {"stars alone", "card and stars", "Moon and stars"};
   using Kind = ground::TruthSpot::Kind;
   constexpr Kind kShown[] = {Kind::kStar, Kind::kTarget, Kind::kMoon};
@@ -153,9 +151,9 @@ int bench_pipelines(int argc, char** argv) {
         for (std::size_t a = 0; a < std::size(algorithms); ++a) {
           Panel panel{static_cast<int>(k),
                       static_cast<int>(a),
-                      std::string(kinds[k]) + ": " + algorithms[a].first,
+                      std::string(kinds[k]) + ": " + algorithms[a].name(),
                       {}};
-          judge(frame, algorithms[a].second, rows[k][a], panel.places);
+          judge(frame, algorithms[a], rows[k][a], panel.places);
           if (picture_file != nullptr && !is_shown[k]) picture.put(panel, view, middle_of(frame, kShown[k]));
         }
         is_shown[k] = true;
@@ -166,14 +164,14 @@ int bench_pipelines(int argc, char** argv) {
               kCounts, kNear);
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
     if (rows[k][0].images == 0) continue;
-    std::printf("%s, %d images\n  %-18s %8s %8s %13s %8s %9s\n", kinds[k], rows[k][0].images, "", "found",
-                "missed", "false/image", "rms px", "median ms");
+    std::printf("%s, %d images\n  %-18s %8s %8s %13s %8s %8s %9s\n", kinds[k], rows[k][0].images, "", "found",
+                "missed", "false/image", "rms px", "NEES", "median ms");
     for (std::size_t a = 0; a < std::size(algorithms); ++a) {
       const Row& row = rows[k][a];
-      std::printf("  %-18s %8d %8d %13.2f %8.3f %9.2f\n", algorithms[a].first, row.found, row.missed,
+      std::printf("  %-18s %8d %8d %13.2f %8.3f %8.2f %9.2f\n", algorithms[a].name(), row.found, row.missed,
                   static_cast<double>(row.false_dots) / row.images,
                   row.found == 0 ? 0 : std::sqrt(row.squared_error / (2 * row.found)),
-                  1e-3 * quantile(row.times, 0.5));
+                  row.found == 0 ? 0 : row.nees / row.found, 1e-3 * quantile(row.times, 0.5));
     }
   }
   if (picture_file != nullptr) picture.write(picture_file);

@@ -77,6 +77,22 @@ TEST(CameraDots, AreNotUnderTheMaskWhateverIsThere) {
   EXPECT_NEAR(seen.list->masked, 66.0 / 240, 1e-3);
 }
 
+// Spots of which each search finds those of its own kind: no dot twice, brightest first.
+TEST(CameraDots, OfTwoSearchesAreTogetherOnce) {
+  Seen seen;
+  ExtractorParameters other = seen.camera.parameters;
+  other.algorithm = ExtractorAlgorithm::kMlas;
+  const int alone = seen.score().found;
+  seen.camera.also = {other};
+  const SpotScore both = seen.score();
+  EXPECT_GE(both.found, alone);
+  EXPECT_LE(both.false_dots, 1);
+  for (std::size_t i = 1; i < seen.list->dots.size(); ++i)
+    EXPECT_GE(seen.list->dots[i - 1].flux, seen.list->dots[i].flux);
+  seen.camera.parameters.min_snr = 100;  // finds none
+  EXPECT_GE(seen.score().found, 0.7 * alone);
+}
+
 TEST(CameraDots, OfWideSpotsAreNotUnderTheMaskEither) {
   Seen seen;
   std::mt19937_64 random(4);

@@ -27,7 +27,7 @@ Tables read(const std::string& text) {
   Tables tables;
   tables.dots.width = kLens.width();
   tables.dots.height = kLens.height();
-  tables.dots.parameters = read_extractor(table);
+  read_extractors(table, tables.dots);
   read_sensor(table, kLens, tables.dots);
   read_mask(table, kLens, tables.dots);
   tables.exposure = read_exposure(table);
@@ -59,6 +59,43 @@ TEST(CameraTables, ChooseTheExtractorByWhatIsLookedFor) {
   expect_refused("extractor = { polarity = \"grey\" }", "extractor.polarity: expected \"bright\"");
   expect_refused("extractor = { threshold = 0.5 }", "extractor.threshold: expected a number from 1 to 100");
   expect_refused("extractor = { sharpness = 3 }", "extractor.sharpness: expected one of");
+}
+
+TEST(CameraTables, ChooseAPipelineForEachKindOfThing) {
+  const Tables tables = read(
+      "extractor = { for = \"stars\", algorithm = \"stars\", gain_e_per_level = 2 }\n"
+      "[[also_extractor]]\nfor = \"targets\"\nalgorithm = \"mlas\"\nlocal_window_px = 41\n");
+  EXPECT_EQ(tables.dots.parameters.algorithm, ExtractorAlgorithm::kStars);
+  EXPECT_EQ(tables.dots.parameters.classical.deviations, 3.5);
+  ASSERT_EQ(tables.dots.also.size(), 1U);
+  EXPECT_EQ(tables.dots.also[0].algorithm, ExtractorAlgorithm::kMlas);
+  EXPECT_EQ(tables.dots.also[0].classical.window, 41);
+  EXPECT_GT(tables.dots.also[0].max_diameter, tables.dots.parameters.max_diameter);
+  EXPECT_EQ(read("extractor = { algorithm = \"omma\" }").dots.parameters.algorithm,
+            ExtractorAlgorithm::kMatched);
+}
+
+TEST(CameraTables, RefuseAPipelineThatIsNoneOrKeysOfAnother) {
+  expect_refused(
+      "extractor = { algorithm = \"sobel\" }",
+      "extractor.algorithm: expected \"omma\", \"mlas\", \"small-target\" or \"stars\", found sobel");
+  expect_refused("extractor = { algorithm = 4 }", "extractor.algorithm: expected");
+  expect_refused(
+      "extractor = { local_window_px = 31 }",
+      "extractor.local_window_px: expected an algorithm of \"mlas\", \"small-target\" or \"stars\" with "
+      "it, found algorithm = \"omma\"");
+  expect_refused(
+      "extractor = { algorithm = \"mlas\", threshold = 5 }",
+      "extractor.threshold: expected an algorithm of \"omma\" with it, found algorithm = \"mlas\"");
+  expect_refused("extractor = { algorithm = \"mlas\", local_window_px = 30 }",
+                 "extractor.local_window_px: expected an odd number of pixels, found 30");
+  expect_refused("extractor = { algorithm = \"mlas\", local_deviations = 99 }",
+                 "extractor.local_deviations: expected a number from -5 to 50");
+  expect_refused("also_extractor = [ { gain_e_per_level = 2 } ]",
+                 "also_extractor[0].gain_e_per_level: expected it in the camera's `extractor` table");
+  expect_refused("also_extractor = [ {}, {}, {}, {} ]", "also_extractor: expected at most 3 tables, found 4");
+  expect_refused("also_extractor = { for = \"stars\" }",
+                 "also_extractor: expected [[also_extractor]] tables");
 }
 
 TEST(CameraTables, PutMasksTogether) {

@@ -1,6 +1,6 @@
 // The three classical pipelines find what they were made for, and show their stages in the order of the
 // source.
-#include "ground/dots/pipelines.hpp"
+#include "components/extractor/classical/pipelines.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 
 #include "tests/bench/spot_scene.hpp"
 
-namespace omma::ground {
+namespace omma {
 namespace {
 
 struct Found {
   int found = 0, false_dots = 0;
 };
 
-Found judge(const SpotScene& scene, const std::vector<ClassicalDot>& dots) {
+Found judge(const SpotScene& scene, std::span<const ClassicalDot> dots) {
   Found result;
   std::vector<bool> used(dots.size(), false);
   for (const MadeSpot& spot : scene.spots) {
@@ -38,6 +38,11 @@ class Pipelines : public testing::Test {
     scene.spots = grid_of_spots(scene, 48, sigma, 80, random);
     return grey_image(render(scene, random).view());
   }
+  Found found(ClassicalAlgorithm algorithm, const GreyImage& image) {
+    ClassicalPipelines pipelines(image.width, image.height, parameters);
+    pipelines.original() = image;
+    return judge(scene, pipelines.run(algorithm, &observer));
+  }
   SpotScene scene;
   std::mt19937_64 random{4};
   ClassicalParameters parameters;
@@ -51,7 +56,7 @@ class Pipelines : public testing::Test {
 
 TEST_F(Pipelines, MlasFindsBrightTargetsInFifteenSteps) {
   const GreyImage image = bright_spots(2.5);
-  const Found result = judge(scene, mlas_dots(image, parameters, observer));
+  const Found result = found(ClassicalAlgorithm::kMlas, image);
   EXPECT_EQ(result.found, static_cast<int>(scene.spots.size()));
   EXPECT_LE(result.false_dots, 2);
   EXPECT_EQ(names.size(), 12U);
@@ -62,7 +67,7 @@ TEST_F(Pipelines, MlasFindsBrightTargetsInFifteenSteps) {
 TEST_F(Pipelines, SmallTargetFindsSmallTargetsOnASlope) {
   scene.slope = 0.4;
   const GreyImage image = bright_spots(1.5);
-  const Found result = judge(scene, small_target_dots(image, parameters, observer));
+  const Found result = found(ClassicalAlgorithm::kSmallTarget, image);
   EXPECT_GE(result.found, static_cast<int>(scene.spots.size()) - 1);
   EXPECT_LE(result.false_dots, 3);
   EXPECT_EQ(names[1], "without low frequencies");
@@ -78,21 +83,23 @@ TEST_F(Pipelines, StarsFindsPointsAndTakesABlackFrameAway) {
       black.at(u, v) = 90;
     }
   }
-  const Found with = judge(scene, star_dots(image, black, parameters, observer));
-  const Found without = judge(scene, star_dots(image, {}, parameters, {}));
+  GreyImage clean = image;
+  subtract(black, clean);
+  const Found with = found(ClassicalAlgorithm::kStars, clean);
+  EXPECT_EQ(names.size(), 18U);
+  const Found without = found(ClassicalAlgorithm::kStars, image);
   EXPECT_GE(with.found, static_cast<int>(scene.spots.size()) - 1);
   EXPECT_GT(without.false_dots, with.false_dots + 10);
   EXPECT_EQ(names.front(), "original less black frame");
-  EXPECT_EQ(names.size(), 18U);
 }
 
 TEST_F(Pipelines, FindNothingInAnEvenImage) {
   GreyImage image(320, 240);
   std::fill(image.value.begin(), image.value.end(), 40.0F);
-  EXPECT_TRUE(mlas_dots(image, parameters, {}).empty());
-  EXPECT_TRUE(small_target_dots(image, parameters, {}).empty());
-  EXPECT_TRUE(star_dots(image, {}, parameters, {}).empty());
+  for (const auto algorithm :
+       {ClassicalAlgorithm::kMlas, ClassicalAlgorithm::kSmallTarget, ClassicalAlgorithm::kStars})
+    EXPECT_EQ(found(algorithm, image).false_dots, 0);
 }
 
 }  // namespace
-}  // namespace omma::ground
+}  // namespace omma

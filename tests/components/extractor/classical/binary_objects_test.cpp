@@ -1,10 +1,17 @@
 // Objects of a binary image and the measures they are judged by.
-#include "ground/dots/objects.hpp"
+#include "components/extractor/classical/binary_objects.hpp"
 
 #include <gtest/gtest.h>
 
-namespace omma::ground {
+namespace omma {
 namespace {
+
+std::vector<BinaryObject> objects(const GreyImage& binary) {
+  ObjectFinder finder(binary.width, binary.height);
+  std::vector<BinaryObject> all;
+  finder.for_each(binary, [&](const BinaryObject& object) { all.push_back(object); });
+  return all;
+}
 
 GreyImage ellipse(double a, double b, double hole = 0) {
   GreyImage image(64, 64);
@@ -51,14 +58,16 @@ TEST(Objects, ACrossIsNoEllipse) {
 TEST(Objects, DiagonalPixelsAreOneAndThoseNotKeptAreCleared) {
   GreyImage image(16, 16);
   image.at(0, 3) = image.at(1, 4) = image.at(10, 10) = 1;
-  auto found = objects(image);
-  ASSERT_EQ(found.size(), 2U);
-  EXPECT_EQ(found[0].area(), 2);
-  keep(image, found, [&](const BinaryObject& o) { return !o.at_edge(image); });
-  ASSERT_EQ(found.size(), 1U);
+  ObjectFinder finder(16, 16);
+  std::vector<double> areas;
+  finder.for_each(image, [&](const BinaryObject& object) { areas.push_back(object.area()); });
+  EXPECT_EQ(areas, (std::vector<double>{2, 1}));
+  finder.keep(image, [&](const BinaryObject& o) { return !o.at_edge(image); });
   EXPECT_EQ(image.at(0, 3) + image.at(1, 4), 0);
+  EXPECT_EQ(image.at(10, 10), 1);
+  for (int pass = 0; pass < 300; ++pass) finder.keep(image, [](const BinaryObject&) { return true; });
   EXPECT_EQ(image.at(10, 10), 1);
 }
 
 }  // namespace
-}  // namespace omma::ground
+}  // namespace omma

@@ -34,4 +34,9 @@ std::vector<MotionAxis> read_trajectory_file(const std::filesystem::path& file,
 std::vector<MotionAxis> read_unchecked_trajectory_file(const std::filesystem::path& file,
                                                        const std::vector<GimbalAxis>& gimbal);
 
+/// The key points of such a file alone, of each axis in the order of the gimbal; none of an axis that is not
+/// named.
+std::vector<std::vector<KeyPoint>> read_key_points(const std::filesystem::path& file,
+                                                   const std::vector<GimbalAxis>& gimbal);
+
 }  // namespace omma

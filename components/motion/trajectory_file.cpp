@@ -140,17 +140,29 @@ GimbalPoints read_toml(const std::filesystem::path& path, const std::vector<Gimb
   return axes;
 }
 
-}  // namespace
-
-std::vector<MotionAxis> read_unchecked_trajectory_file(const std::filesystem::path& file,
-                                                       const std::vector<GimbalAxis>& gimbal) {
+GimbalPoints read_points(const std::filesystem::path& file, const std::vector<GimbalAxis>& gimbal) {
   const bool toml = file.extension() == ".toml";
   if (!toml && file.extension() != ".csv")
     throw InputError(file.string(), 0, "file", "a name that ends in .csv or .toml",
                      excerpt(file.extension().string()));
-  const GimbalPoints read = toml ? read_toml(file, gimbal) : read_csv(file, gimbal);
+  GimbalPoints read = toml ? read_toml(file, gimbal) : read_csv(file, gimbal);
   if (std::all_of(read.begin(), read.end(), [](const AxisPoints& axis) { return axis.points.empty(); }))
     throw InputError(file.string(), 0, "file", "key points", "none");
+  return read;
+}
+
+}  // namespace
+
+std::vector<std::vector<KeyPoint>> read_key_points(const std::filesystem::path& file,
+                                                   const std::vector<GimbalAxis>& gimbal) {
+  std::vector<std::vector<KeyPoint>> points;
+  for (AxisPoints& axis : read_points(file, gimbal)) points.push_back(std::move(axis.points));
+  return points;
+}
+
+std::vector<MotionAxis> read_unchecked_trajectory_file(const std::filesystem::path& file,
+                                                       const std::vector<GimbalAxis>& gimbal) {
+  const GimbalPoints read = read_points(file, gimbal);
   std::vector<MotionAxis> axes;
   for (std::size_t i = 0; i < gimbal.size(); ++i) {
     std::vector<KeyPoint> points = read[i].points;

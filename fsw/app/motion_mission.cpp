@@ -4,6 +4,7 @@
 
 #include "components/motion/motion_files.hpp"
 #include "fsw/app/mission.hpp"
+#include "fsw/app/recorded_motion_file.hpp"
 #include "hal/simulated/simulated_servo.hpp"
 
 namespace omma {
@@ -52,6 +53,14 @@ MotionMission read_motion(const TomlTable& table, double frame_rate_hz) {
       throw table.error("channels", "the channel of every axis, up to " + std::to_string(axis.channel),
                         std::to_string(motion.maestro.channels));
   motion.axes = read_trajectory_file(table.path("trajectory"), gimbal);
+  // As the device: may stay, so that one word switches.
+  const std::string recording = table.text("recording", "");
+  if (motion.driver == ServoKind::kRecorded) {
+    if (recording.empty())
+      throw table.error("recording", "a flight's recording (.mcap) or a table (.csv) of what the axes did",
+                        "nothing");
+    motion.recorded = read_recorded_motion(table.path("recording"), gimbal);
+  }
   table.refuse_unknown_keys();
   return motion;
 }
@@ -61,8 +70,7 @@ bool has_servo_board(const Mission& mission) {
 }
 
 std::unique_ptr<ServoDriver> servo_driver(const Mission& mission, const RunOptions& options) {
-  if (!mission.motion) return nullptr;
-  if (mission.motion->driver == ServoKind::kRecorded) return std::make_unique<SimulatedServo>("recorded");
+  if (!mission.motion || mission.motion->driver == ServoKind::kRecorded) return nullptr;
   if (mission.motion->driver == ServoKind::kSimulated || !options.with_cameras)
     return std::make_unique<SimulatedServo>();
   if (options.lockstep)

@@ -119,7 +119,9 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       health_to_telemetry_(health.report),
       timing_to_telemetry_(health.timing),
       utc_to_telemetry_(utc.report) {
-  if (mission_.motion) {
+  if (mission_.motion && mission_.motion->driver == ServoKind::kRecorded) {
+    motion_playback.emplace(mission_.motion->recorded);
+  } else if (mission_.motion) {
     motion.emplace(MotionParameters{.axes = mission_.motion->axes, .period_ns = mission_.motion->period_ns()},
                    *servo_, events);
     motion_to_telemetry_.emplace(motion->report);
@@ -201,6 +203,10 @@ void Topology::connect() {
     trigger_watch->frames.bind(cameras.frames);
   }
   if (motion_to_telemetry_) telemetry.motion.bind(*motion_to_telemetry_);
+  if (motion_playback) {
+    motion_playback->trigger.bind(sync_trigger.trigger);
+    telemetry.motion.bind(motion_playback->report);
+  }
   telemetry.commands.bind(commander.state);
   telemetry.parameters.bind(parameters.committed);
   telemetry.parameter_state.bind(parameters.state);
@@ -251,14 +257,16 @@ RateGroupTable Topology::table() {
                                  {housekeeping, microseconds(100)},
                                  {limit_watch, microseconds(100)},
                                  {fault_watch, microseconds(100)},
-                                 {mode_keeper, microseconds(100)},
-                                 {telemetry, microseconds(1000)}}},
+                                 {mode_keeper, microseconds(100)}}},
                  {.name = "health",
                   .divisor = base_ticks * beats_per_second(mission_.frame_rate_hz),
                   .priority = kHealthPriority,
                   .components = {{utc, microseconds(100)}, {health, microseconds(1000)}}}},
       .phase = &mode_keeper.phase()};
-  if (trigger_watch) table.groups.front().components.push_back({*trigger_watch, microseconds(100)});
+  auto& vision = table.groups.front().components;
+  if (motion_playback) vision.push_back({*motion_playback, microseconds(100)});
+  vision.push_back({telemetry, microseconds(1000)});
+  if (trigger_watch) vision.push_back({*trigger_watch, microseconds(100)});
   if (motion)
     table.groups.push_back(
         {.name = "motion", .priority = kMotionPriority, .components = {{*motion, microseconds(500)}}});

@@ -16,6 +16,7 @@
 #include "components/housekeeping/housekeeping.hpp"
 #include "components/imaging/imaging.hpp"
 #include "components/motion/motion.hpp"
+#include "components/motion/motion_playback.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/surveillance/surveillance.hpp"
 #include "components/sync_trigger/sync_trigger.hpp"
@@ -102,6 +103,7 @@ class Topology {
   Telemetry telemetry;
   UtcCorrelation utc;
   std::optional<Motion> motion;
+  std::optional<MotionPlayback> motion_playback;  // instead of it, where the axes are recorded
   std::optional<TriggerWatch> trigger_watch;
   Health health;
 

@@ -1,5 +1,4 @@
-// A servo board that is not there: takes every command that a board of so many channels would take. Under the
-// name "recorded" the gimbal moved when the frames were recorded, and what it is told now goes nowhere.
+// A servo board that is not there: takes every command that a board of so many channels would take.
 #pragma once
 
 #include <array>
@@ -11,8 +10,7 @@ namespace omma {
 
 class SimulatedServo final : public ServoDriver {
  public:
-  explicit SimulatedServo(std::string_view name = "simulated") : name_(name) {}
-  std::string_view driver_name() const override { return name_; }
+  std::string_view driver_name() const override { return "simulated"; }
   bool set_target(int channel, QuarterMicroseconds pulse) noexcept override {
     if (channel < 0 || channel >= kChannels) return false;
     targets_[static_cast<std::size_t>(channel)] = pulse;
@@ -26,7 +24,6 @@ class SimulatedServo final : public ServoDriver {
 
  private:
   static constexpr int kChannels = 24;
-  std::string_view name_;
   std::array<QuarterMicroseconds, kChannels> targets_{};
 };
 

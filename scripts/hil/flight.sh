@@ -56,6 +56,7 @@ $BIN/omma export "$OUTPUT/badly.mcap" --out "$OUTPUT/csv" --topic event > /dev/n
 told() { grep -c "$1" "$OUTPUT/csv/event.csv"; }
 [ "$(told frame_of_no_trigger)" = 6 ]
 check $? "$(told frame_of_no_trigger) of 6 late frames named"
-[ "$(told triggers_without_frame)" -ge 9 ]
-check $? "$(told triggers_without_frame) times pulses without a frame named, of 3 missed and 2 late by 3 cameras"
+# Number 30 is named by the next frame only, which is not collected any more.
+[ "$(told triggers_without_frame)" = 12 ]
+check $? "$(told triggers_without_frame) of 12 pulses without a frame named: 2 missed and 2 with late frames, of 3 cameras"
 exit $failed

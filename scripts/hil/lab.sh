@@ -55,4 +55,17 @@ check $? "telemetry has the axes running, then stopped: $(awk -F, '$5 == "MOTION
 grep -q emergency_stop "$OUTPUT/csv/event.csv"
 check $? "and the emergency stop as an event"
 cat "$OUTPUT/flight.txt"
+
+# The same frames again with recorded axes: they tell what the real ones were told, but for the time.
+sed -i -e '/^\[motion\]/,/^\[/ s/^driver = "maestro"/driver = "recorded"/' \
+  -e '/^\[trigger\]/,/^\[/ s/^driver = "gpiod"/driver = "simulated"/' -e "s|^recording = .*|recording = \"$OUTPUT/lab.mcap\"|" \
+  "$OUTPUT/config/lab.toml"
+$BIN/omma-fsw "$OUTPUT/config/lab.toml" --frames build/hil/frames --no-dds --frame-sets "$SETS" --log "$OUTPUT/again.mcap" \
+  > /tmp/said 2>&1
+check $? "the flight program ended as it should, with recorded axes"
+$BIN/omma export "$OUTPUT/again.mcap" --out "$OUTPUT/again" --topic motion > /dev/null
+told() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) left_out[i] = $i ~ /^time_ns|^time_s|sample_number/ }
+  { line = ""; for (i = 1; i <= NF; i++) if (!left_out[i]) line = line "," $i; print line }' "$1/motion.csv"; }
+[ -n "$(told "$OUTPUT/csv")" ] && [ "$(told "$OUTPUT/csv")" = "$(told "$OUTPUT/again")" ]
+check $? "recorded axes tell the same: $(told "$OUTPUT/again" | wc -l) lines of the telemetry"
 exit $failed

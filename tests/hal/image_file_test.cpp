@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <spng.h>
 
-#include <jpeglib.h>
 #include <cstdio>
 
 #include <cmath>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
+#include "tests/hal/jpeg_bytes.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
 
@@ -72,34 +72,6 @@ std::vector<std::byte> png_of(int color_type, int bit_depth, const std::vector<s
   std::free(buffer);
   spng_ctx_free(context);
   return bytes;
-}
-
-std::vector<std::byte> jpeg_of(const Image& grey) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* buffer = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &buffer, &size);
-  info.image_width = static_cast<JDIMENSION>(grey.width);
-  info.image_height = static_cast<JDIMENSION>(grey.height);
-  info.input_components = 1;
-  info.in_color_space = JCS_GRAYSCALE;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, 98, TRUE);
-  jpeg_start_compress(&info, TRUE);
-  while (info.next_scanline < info.image_height) {
-    auto* row = reinterpret_cast<JSAMPROW>(
-        const_cast<std::byte*>(grey.pixels.data() + std::size_t{info.next_scanline} * info.image_width));
-    jpeg_write_scanlines(&info, &row, 1);
-  }
-  jpeg_finish_compress(&info);
-  const auto* const bytes = reinterpret_cast<const std::byte*>(buffer);
-  std::vector<std::byte> result(bytes, bytes + size);
-  jpeg_destroy_compress(&info);
-  std::free(buffer);
-  return result;
 }
 
 template <class Value>
@@ -226,7 +198,7 @@ TEST(PngFile, SizeIsReadFromTheHeaderAlone) {
 
 TEST(JpegFile, GreyComesBackWithinItsCompression) {
   const Image image = pattern<std::uint8_t>(1);
-  const Image back = read_image(written("grey.jpg", jpeg_of(image)));
+  const Image back = read_image(written("grey.jpg", test::jpeg_of(image)));
   ASSERT_EQ(back.pixels.size(), image.pixels.size());
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     EXPECT_NEAR(std::to_integer<int>(back.pixels[i]), std::to_integer<int>(image.pixels[i]), 6);
@@ -305,7 +277,7 @@ TEST(DamagedImage, PngIsRefused) {
 }
 
 TEST(DamagedImage, JpegIsRefused) {
-  expect_refused_when_cut(jpeg_of(pattern<std::uint8_t>(1)), "cut.jpg", 1);
+  expect_refused_when_cut(test::jpeg_of(pattern<std::uint8_t>(1)), "cut.jpg", 1);
 }
 
 TEST(DamagedImage, FitsIsRefused) {

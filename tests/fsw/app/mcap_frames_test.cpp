@@ -10,6 +10,7 @@
 #include "components/telemetry/mcap_writer.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/recorded_camera.hpp"
+#include "tests/hal/jpeg_bytes.hpp"
 #include "tests/refusal.hpp"
 
 namespace omma {
@@ -131,6 +132,36 @@ TEST_F(McapRecording, FramesOfOneInstantHaveOneNumberAlsoWhereACameraLostSome) {
       EXPECT_EQ(std::to_integer<std::uint64_t>(frame.image.data[0]), 100 + n);
     }
   }
+}
+
+TEST_F(McapRecording, JpegFramesAreTakenToo) {
+  for (int n = 0; n < 3; ++n) {
+    Image image;
+    image.resize(16, 8, PixelFormat::kGrey8);
+    for (std::byte& pixel : image.pixels) pixel = static_cast<std::byte>(40 * (n + 1));
+    write(cam1_, Message(kStart + n * kPeriod).text("jpeg").data(test::jpeg_of(image)).bytes());
+  }
+  McapFrames cam1 = open("cam1");
+  ASSERT_EQ(cam1.count(), 3U);
+  EXPECT_EQ(cam1.size(1).width, 16);
+  EXPECT_EQ(cam1.size(1).bits, 8);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Image image;
+    cam1.read(i, image);
+    EXPECT_EQ(cam1.number(i), i);
+    EXPECT_NEAR(std::to_integer<int>(image.pixels[100]), 40 * (static_cast<int>(i) + 1), 1);
+  }
+}
+
+TEST_F(McapRecording, AJpegThatIsCutShortIsRefused) {
+  Image image;
+  image.resize(64, 64, PixelFormat::kGrey8);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<std::byte>(i * 7919 % 251);
+  std::vector<std::byte> jpeg = test::jpeg_of(image);
+  jpeg.resize(jpeg.size() / 2);
+  write(cam1_, Message(kStart).text("jpeg").data(jpeg).bytes());
+  EXPECT_THAT(refusal("cam1"), HasSubstr("JPEG: expected a whole image"));
 }
 
 TEST_F(McapRecording, ACameraWithoutImagesIsNamed) {

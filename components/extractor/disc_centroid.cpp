@@ -7,7 +7,10 @@ namespace omma {
 
 DiscCentroid disc_centroid(const ImageView& image, bool invert, const Candidate& candidate) noexcept {
   constexpr int kMargin = 2;
-  constexpr double kClipped = 0.02;  // what a clipped disc hides of its centre [px]
+  // What a clipped disc hides of its centre, by its full pixels: measured on spots of 0.5 to 2.2 px whose
+  // tops are 2 to 100 times too bright.
+  constexpr double kClipped = 0.0004;    // [px²]
+  constexpr double kClippedFew = 0.008;  // over one more than the full pixels [px²]
   const PixelNoise& noise = candidate.noise;
   const int left = std::max(0, candidate.left - kMargin);
   const int right = std::min(image.width - 1, candidate.right + kMargin);
@@ -42,7 +45,8 @@ DiscCentroid disc_centroid(const ImageView& image, bool invert, const Candidate&
     light_moment += light * d * d.transpose();
   });
   disc.covariance = noise_moment / (flux * flux);
-  if (candidate.saturated > 0) disc.covariance += kClipped * kClipped * Eigen::Matrix2d::Identity();
+  if (candidate.saturated > 0)
+    disc.covariance += (kClipped + kClippedFew / (1 + candidate.saturated)) * Eigen::Matrix2d::Identity();
   disc.flux = static_cast<float>(flux);
   disc.snr = static_cast<float>(flux / std::sqrt(flux_variance));
   const double mean = 0.5 * light_moment.trace() / flux;

@@ -12,12 +12,13 @@ namespace {
 
 constexpr std::size_t kSample = 16;  // spots the width is learnt from
 constexpr std::size_t kEnough = 6;
-constexpr float kWidthSnr = 8;         // their least signal-to-noise ratio
-constexpr float kNarrowest = 0.55F;    // spot of an image, in widths of its point spread
-constexpr double kModelError = 0.002;  // what no model of a real spot is better than [px]
+constexpr float kUnlearntWidth = 0.7F;  // error of the width before it is learnt, as a share of it
+constexpr float kWidthSnr = 8;          // their least signal-to-noise ratio
+constexpr float kNarrowest = 0.55F;     // spot of an image, in widths of its point spread
+constexpr double kModelError = 0.001;   // what no model of a real spot is better than [px]
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
-constexpr double kSecondOrder = 7;
+constexpr double kSecondOrder = 8;
 // Excess of the long axis's variance from which a trail is tried: this share of the spot's variance and of
 // that of the half pixel on each side within which sharp spots are drawn out by the sensor.
 constexpr double kStretched = 0.3;
@@ -26,6 +27,7 @@ constexpr double kTrailGain = 15;         // by which a trail's χ² must be sma
 constexpr double kManyPixels = 5000;      // whose residuals tell the noise to 2 %
 constexpr double kLeastNoiseShare = 0.9;  // [variance]
 constexpr int kLeastPixels = 12;          // of a window
+constexpr double kApart = 3;              // fit and centroid, in their errors
 constexpr double kLeastDiscSigma = 1.5;   // of a blob that may be a disc [px]
 // Of one image at most so many dots are measured: the best of them are handed over.
 constexpr std::size_t kMost = 2 * limits::kDotsPerCamera;
@@ -217,9 +219,21 @@ bool DotMeasurement::may_be_point(const Candidate& candidate) const noexcept {
   return width_of(candidate) < 1.3 * static_cast<double>(parameters_->max_point_sigma);
 }
 
+// A spot whose top is cut off has little left that tells its place: where its fit says less than its centroid
+// does, or goes away from it, the centroid is taken.
+bool DotMeasurement::is_better_as_disc(const Candidate& candidate, const Dot& dot) const noexcept {
+  if (candidate.peaks > 1 || crowded_) return false;
+  const DiscCentroid disc = disc_centroid(*image_, invert_, candidate);
+  if (!(disc.snr >= parameters_->min_snr)) return false;
+  const Eigen::Vector2d apart = dot.pixel - disc.centre;
+  const double error = dot.covariance.trace() + disc.covariance.trace();
+  return dot.covariance.trace() > disc.covariance.trace() || apart.squaredNorm() > kApart * kApart * error;
+}
+
 bool DotMeasurement::measure_disc(const Candidate& candidate, Dot& dot) const noexcept {
   dot = Dot{};
-  if (candidate.peaks > 1 || disc_sigma(candidate) < kLeastDiscSigma) return false;
+  if (candidate.peaks > 1 || (candidate.saturated == 0 && disc_sigma(candidate) < kLeastDiscSigma))
+    return false;
   const DiscCentroid disc = disc_centroid(*image_, invert_, candidate);
   if (!(disc.snr >= parameters_->min_snr)) return false;
   dot.pixel = disc.centre;
@@ -259,8 +273,6 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   widths_.clear();
   width_known_ = false;
   set_narrowest(parameters_->min_sigma);
-  prior_.sigma = 1.0F;
-  prior_.sigma_error = 0.7F;
   // Some from all that may be handed over: the very brightest may be something else than stars, and so may
   // the faintest of a flood.
   std::size_t elongated = 0;
@@ -271,6 +283,9 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
     if (candidate.saturated > 0 || candidate.peaks > 1) continue;
     if (!may_be_point(candidate)) continue;
     start_at(candidate);
+    // About what its area says, and loosely: one width for all would draw wide spots to itself.
+    prior_.sigma = static_cast<float>(fit_.sigma);
+    prior_.sigma_error = kUnlearntWidth * prior_.sigma;
     if (!fit_point(candidate, field_.size())) continue;
     if (fit_.sigma < parameters_->min_sigma || fit_.sigma > parameters_->max_point_sigma) continue;
     if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) continue;
@@ -279,6 +294,8 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   }
   // One long spot may be two stars; when most are long, the camera moved.
   trails_ = 2 * elongated > widths_.size();
+  prior_.sigma = 1.0F;
+  prior_.sigma_error = kUnlearntWidth;
   if (widths_.size() < kEnough) return;
   const auto median = [&] {
     const auto middle = widths_.begin() + static_cast<std::ptrdiff_t>(widths_.size() / 2);
@@ -378,7 +395,8 @@ std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
     Dot dot;
     start_at(candidate);
     if (field_[i].flux > 0) start_at(field_[i]);
-    const bool point = may_be_point(candidate) && measure_point(candidate, i, dot);
+    bool point = may_be_point(candidate) && measure_point(candidate, i, dot);
+    if (point && candidate.saturated > 0 && is_better_as_disc(candidate, dot)) point = false;
     field_.set(i, {});
     if (point) {
       if (field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) continue;

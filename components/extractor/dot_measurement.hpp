@@ -43,6 +43,7 @@ class DotMeasurement {
   bool try_trail(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool may_be_point(const Candidate& candidate) const noexcept;
   bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
+  bool is_better_as_disc(const Candidate& candidate, const Dot& dot) const noexcept;
   bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
   void start_at(const Candidate& candidate) noexcept;
   void start_at(const FieldSpot& spot) noexcept;

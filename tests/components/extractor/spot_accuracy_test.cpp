@@ -122,5 +122,38 @@ TEST(Spots, ThatClipAreMeasuredOnTheirFlanks) {
   EXPECT_LT(score.mean_nees(), 3);
 }
 
+// Tops cut off at a hundredth of their height and more: what is left of some does not tell their place, and
+// the covariance says so instead of running away.
+TEST(Spots, ThatClipFarFallBackToTheirCentroid) {
+  SpotScene scene;
+  scene.width = 640;
+  scene.height = 480;
+  scene.gain = 4;
+  DotExtractor extractor(scene.width, scene.height);
+  ExtractorParameters parameters;
+  parameters.gain = 4;
+  auto list = std::make_unique<DotList>();
+  for (const double sigma : {0.7, 1.0, 2.2}) {
+    for (const double over : {5.0, 20.0, 100.0}) {
+      std::mt19937_64 random(4);
+      SpotScore score;
+      for (int k = 0; k < 2; ++k) {
+        scene.spots = grid_of_spots(scene, 40, sigma, 0, random);
+        for (MadeSpot& spot : scene.spots) spot.flux = over * 235 * 2 * M_PI * (sigma * sigma + 1.0 / 12);
+        const Image image = render(scene, random);
+        extractor.extract(image.view(), parameters, *list);
+        score.add(scene, list->dots);
+        for (const Dot& dot : list->dots) {
+          EXPECT_LT(std::sqrt(dot.covariance.trace()), 0.15);
+          EXPECT_LT(dot.flux, 3 * scene.spots[0].flux);
+        }
+      }
+      EXPECT_EQ(score.found, score.spots) << sigma << " px, " << over;
+      EXPECT_GT(score.mean_nees(), 1.4) << sigma << " px, " << over;
+      EXPECT_LT(score.mean_nees(), 2.4) << sigma << " px, " << over;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace omma

@@ -102,6 +102,15 @@ nlohmann::ordered_json match_json(const MotionMatch& m) {
           {"right_sigma_deg", m.right_sigma.head<3>().norm() / kDegree}};
 }
 
+std::string motion_text(const MotionEvaluation& motion) {
+  const Vector6d& rms = motion.rms;
+  return format(
+      "since frame %-4llu   position %.3f, %.3f, %.3f mm, rotation %.4f, %.4f, %.4f deg rms, NEES %.2f of "
+      "6\n",
+      static_cast<unsigned long long>(motion.first_frame), 1e3 * rms[3], 1e3 * rms[4], 1e3 * rms[5],
+      rms[0] / kDegree, rms[1] / kDegree, rms[2] / kDegree, motion.mean_nees);
+}
+
 }  // namespace
 
 DockingTrial docking_trial(const ChainRun& run) {
@@ -140,6 +149,7 @@ std::string docking_text(const DockingTrial& t) {
                    t.attitude.rms[axis] / kArcsec, t.attitude.bound_rms[axis] / kArcsec,
                    ratio(t.attitude.rms[axis], t.attitude.bound_rms[axis]), kDissertationAttitude * 3600);
   }
+  if (!t.pose.motion.points.empty()) text += motion_text(t.pose.motion);
   text += format("NEES             pose %.2f of 6 (%.2f to %.2f), attitude %.2f of 3 (%.2f to %.2f)\n",
                  t.pose.nees.mean, t.pose.nees.low, t.pose.nees.high, t.attitude.nees.mean,
                  t.attitude.nees.low, t.attitude.nees.high);

@@ -144,6 +144,29 @@ PoseError pose_error(const Judge& judge, const TargetBody& body, const Pose& rig
   return point;
 }
 
+const Pose* pose_of(const TruthFrame& frame, const std::string& body) {
+  for (const TruthBody& one : frame.bodies)
+    if (one.name == body) return &one.rig_from_body;
+  return nullptr;
+}
+
+/// @param first  the true pose of the frame set that the sample's motion is referred to
+PoseError motion_error(const Judge& judge, const Pose& first, const Pose& now,
+                       const omma_RelativePose& sample) {
+  PoseError point;
+  point.frame = sample.frame;
+  point.time = judge.time;
+  point.range = now.translation.norm();
+  const Eigen::Quaterniond turned = now.rotation * first.rotation.conjugate();
+  const Eigen::Vector3d moved(sample.motion_m.x, sample.motion_m.y, sample.motion_m.z);
+  point.error << rotation_log(turned * quaternion(sample.motion).conjugate()),
+      now.translation - first.translation - moved;
+  const Matrix6d covariance = Eigen::Map<const Matrix6d>(sample.motion_covariance);
+  point.sigma = covariance.diagonal().cwiseSqrt();
+  point.nees = squared_in_sigmas<6>(point.error, covariance);
+  return point;
+}
+
 /// √ of the mean of the squares of `of(point)` over the points where it is a number.
 template <class Points, class Of>
 auto rms_over(const Points& points, Of&& of) {
@@ -195,6 +218,12 @@ void sum_up(PoseEvaluation& evaluation) {
   evaluation.rotation = {rms[0], bound[0], used_bound[0]};
   evaluation.position_part = {rms[1], bound[1], used_bound[1]};
   evaluation.nees = mean_nees(nees_of(points), 6);
+}
+
+void sum_up(MotionEvaluation& evaluation) {
+  if (evaluation.points.empty()) return;
+  evaluation.rms = rms_over(evaluation.points, [](const PoseError& p) { return p.error; });
+  evaluation.mean_nees = mean_nees(nees_of(evaluation.points), 6).mean;
 }
 
 std::vector<PoseEvaluation> bodies_to_judge(const FlownMission& mission,
@@ -281,10 +310,18 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
       check_protection(error.head<3>(), sample.integrity.protection_rad, pose.protection);
       check_protection(error.tail<3>(), sample.integrity.protection_m, pose.protection);
       pose.protection.alerts += sample.integrity.state == omma_INTEGRITY_ALERT ? 1 : 0;
+      if (!sample.motion_valid || sample.first_frame == sample.frame) continue;
+      if (const Pose* first = pose_of(judge_of(sample.first_frame).truth, pose.body)) {
+        pose.motion.first_frame = sample.first_frame;
+        pose.motion.points.push_back(motion_error(judge, *first, body.rig_from_body, sample));
+      }
     }
   }
   sum_up(evaluation.attitude);
-  for (PoseEvaluation& pose : evaluation.poses) sum_up(pose);
+  for (PoseEvaluation& pose : evaluation.poses) {
+    sum_up(pose);
+    sum_up(pose.motion);
+  }
   return evaluation;
 }
 

@@ -63,6 +63,15 @@ struct OverBound {
   double ratio() const { return bound > 0 ? rms / bound : 0; }
 };
 
+/// The motion since the first accepted pose of a body, beside the true one since that frame set. All samples
+/// share the first pose's error, so that one flight's mean NEES scatters as one draw of it does.
+struct MotionEvaluation {
+  std::vector<PoseError> points;    ///< bounds are not worked out; the first pose itself is left out
+  std::uint64_t first_frame = 0;    ///< of the last sample
+  Vector6d rms = Vector6d::Zero();  ///< per axis (rotation [rad], position [m])
+  double mean_nees = 0;             ///< 6 is right
+};
+
 struct PoseEvaluation {
   std::string body;
   std::vector<PoseError> points;    ///< solved frame sets
@@ -75,6 +84,7 @@ struct PoseEvaluation {
   OverBound rotation;       ///< [rad]
   MeanNees nees;
   ProtectionCheck protection;
+  MotionEvaluation motion;
 };
 
 /// Spots paired, against where the truth has the star or target of that name.

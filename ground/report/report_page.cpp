@@ -116,6 +116,17 @@ std::string pictures_html(const std::vector<ReportPicture>& pictures) {
   return html;
 }
 
+nlohmann::ordered_json motion_json(const MotionEvaluation& motion) {
+  const auto axes = [](const Eigen::Vector3d& v, double unit) {
+    return std::vector<double>{v.x() / unit, v.y() / unit, v.z() / unit};
+  };
+  return {{"samples", motion.points.size()},
+          {"first_frame", motion.first_frame},
+          {"position_rms_mm", axes(motion.rms.tail<3>(), 1e-3)},
+          {"rotation_rms_deg", axes(motion.rms.head<3>(), kDegree)},
+          {"nees", motion.mean_nees}};
+}
+
 nlohmann::ordered_json protection_json(const ProtectionCheck& check) {
   return {{"axes", check.axes}, {"beyond", check.beyond}, {"alerts", check.alerts}};
 }
@@ -178,7 +189,8 @@ std::string report_json(const ReportContent& content) {
                              {"rotation_rms_deg", p.rotation.rms / kDegree},
                              {"rotation_over_bound", p.rotation.ratio()},
                              {"nees", {{"mean", p.nees.mean}, {"low", p.nees.low}, {"high", p.nees.high}}},
-                             {"protection", protection_json(p.protection)}});
+                             {"protection", protection_json(p.protection)},
+                             {"motion_since_first", motion_json(p.motion)}});
   }
   json["pairings"] = {{"right", e.pairs.right}, {"wrong", e.pairs.wrong}, {"unknown", e.pairs.unknown}};
   json["time_ms"] = nlohmann::ordered_json::object();
@@ -201,6 +213,11 @@ std::string report_text(const ReportContent& content) {
         "(%.2f x bound), NEES %.2f of 6\n",
         p.body.c_str(), p.points.size(), p.frames, 100 * p.position_part.rms, p.position_part.ratio(),
         p.rotation.rms / kDegree, p.rotation.ratio(), p.nees.mean);
+    if (!p.motion.points.empty())
+      text += format(
+          "           motion since frame %llu: position rms %.2f mm, rotation rms %.3f deg, NEES %.2f of 6\n",
+          static_cast<unsigned long long>(p.motion.first_frame), 1e3 * p.motion.rms.tail<3>().norm(),
+          p.motion.rms.head<3>().norm() / kDegree, p.motion.mean_nees);
   }
   ProtectionCheck all = a.protection;
   for (const PoseEvaluation& p : content.evaluation.poses) {

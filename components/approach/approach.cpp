@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/approach/place_of_pose.hpp"
+
 namespace omma {
 namespace {
 
@@ -145,13 +147,10 @@ void Approach::choose_light(Followed& body) noexcept {
 
 void Approach::see_pose(Followed& body, const PoseEstimate& pose) noexcept {
   body.seen = true;
-  const Eigen::Vector3d position = pose.solution.rig_from_body.translation;
-  const double range = position.norm();
-  const Eigen::Vector3d ray = position / range;
-  const Eigen::Matrix3d covariance = pose.integrity.rig.covariance.bottomRightCorner<3, 3>();
+  const PlaceOfPose place = place_of(pose);
   if (attitude->valid) {
-    const Eigen::Vector3d direction = rig_from_j2000_.transpose() * ray;
-    const Eigen::Matrix3d seen = rig_from_j2000_.transpose() * covariance * rig_from_j2000_ / (range * range);
+    const Eigen::Vector3d direction = rig_from_j2000_.transpose() * place.direction;
+    const Eigen::Matrix3d seen = rig_from_j2000_.transpose() * place.covariance * rig_from_j2000_;
     const auto whitener = direction_whitener(direction, seen);
     Innovation innovation = body.bearing.innovation(whitener, attitude_covariance_);
     // What was followed as its light was something else.
@@ -165,8 +164,8 @@ void Approach::see_pose(Followed& body, const PoseEstimate& pose) noexcept {
       body.followed = true;
     }
   }
-  body.range.see_range(range, std::sqrt(ray.dot(covariance * ray)));
-  see_targets(body, position);
+  body.range.see_range(place.range, place.range_sigma);
+  see_targets(body, pose.solution.rig_from_body.translation);
 }
 
 // Where its range is known from elsewhere the light of all targets together tells how bright it is at 1 m.
@@ -292,13 +291,11 @@ void Approach::tell(const Followed& body, const PoseEstimate* pose, ApproachEsti
   const Eigen::Matrix3d& turn = rig_from_j2000_;
   const Eigen::Matrix3d of_attitude = turn * attitude_covariance_ * turn.transpose();
   if (out.mode == RangeMode::kClose && pose != nullptr) {
-    const Eigen::Vector3d position = pose->solution.rig_from_body.translation;
-    const Eigen::Matrix3d covariance = pose->integrity.rig.covariance.bottomRightCorner<3, 3>();
-    out.range = position.norm();
-    out.direction = position / out.range;
-    out.range_sigma = std::sqrt(out.direction.dot(covariance * out.direction));
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - out.direction * out.direction.transpose();
-    out.covariance = across * covariance * across / (out.range * out.range);
+    const PlaceOfPose place = place_of(*pose);
+    out.range = place.range;
+    out.range_sigma = place.range_sigma;
+    out.direction = place.direction;
+    out.covariance = place.covariance;
     const Eigen::Matrix3d by_turn = skew(out.direction);
     const Eigen::Matrix3d in_sky = out.covariance + by_turn * of_attitude * by_turn.transpose();
     out.direction_j2000 = turn.transpose() * out.direction;

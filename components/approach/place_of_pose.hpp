@@ -1,0 +1,29 @@
+// A pose as bearing and range, each with its uncertainty: what the close mode tells of it and learns from it.
+#pragma once
+
+#include <cmath>
+
+#include "components/pose/pose_estimate.hpp"
+
+namespace omma {
+
+struct PlaceOfPose {
+  double range = 0;  ///< [m]
+  double range_sigma = 0;
+  Eigen::Vector3d direction;   ///< unit, rig frame
+  Eigen::Matrix3d covariance;  ///< of the direction, across it [rad²]; calibration included
+};
+
+inline PlaceOfPose place_of(const PoseEstimate& pose) noexcept {
+  PlaceOfPose place;
+  const Eigen::Vector3d& position = pose.solution.rig_from_body.translation;
+  const Eigen::Matrix3d covariance = pose.integrity.rig.covariance.bottomRightCorner<3, 3>();
+  place.range = position.norm();
+  place.direction = position / place.range;
+  place.range_sigma = std::sqrt(place.direction.dot(covariance * place.direction));
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
+  place.covariance = across * covariance * across / (place.range * place.range);
+  return place;
+}
+
+}  // namespace omma

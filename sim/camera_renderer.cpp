@@ -151,6 +151,7 @@ void CameraRenderer::add_cards(std::span<const SceneInstant> drawn, const std::o
     for (const SceneInstant& instant : drawn)
       moved.emplace_back(view_, scenario_.cards[c], instant.rig_from_body[c], sunlight);
     for (std::size_t t = 0; t < scenario_.cards[c].body.targets.size(); ++t) {
+      if (!scenario_.cards[c].body.targets[t].code.lit(frame_)) continue;  // it blinks, and is dark
       Spot spot;
       spot.kind = SpotKind::kTarget;
       spot.card = static_cast<std::uint16_t>(c);

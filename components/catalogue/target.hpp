@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "components/catalogue/blink_word.hpp"
 #include "config/limits.hpp"
 #include "fsw/kernel/fixed_string.hpp"
 #include "fsw/kernel/static_vector.hpp"
@@ -17,6 +18,7 @@ struct Target {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   std::int32_t group = 0;  ///< groups can be enabled and disabled together
   std::int32_t type = 0;   ///< 0: dark dot on light, 1: light dot on dark (LED)
+  BlinkWord code;          ///< by which it says which it is
 };
 
 /// Whether a camera there has the target's face before it.

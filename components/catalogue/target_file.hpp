@@ -1,5 +1,6 @@
 // Reads a target database: one fiducial a line, separated by tabs: id x y z group type, and where it is on a
-// face that hides it from behind, the face's outward normal: nx ny nz. Positions in metres in the body's
+// face that hides it from behind, the face's outward normal: nx ny nz. One more field is its blinking code,
+// 1 where it is lit, a bit a frame (components/catalogue/blink_word.hpp). Positions in metres in the body's
 // frame; type 0 is a dark dot on light, 1 a light dot on dark (LED). A first line that names
 // the columns, empty lines and lines starting with '#' are passed over.
 #pragma once

@@ -20,6 +20,12 @@ inline YawPitchRoll yaw_pitch_roll(const Eigen::Quaterniond& q) {
           std::atan2(r(2, 1), r(2, 2))};
 }
 
+/// Unit vector of a right ascension and a declination [rad].
+inline Eigen::Vector3d direction_at(double right_ascension, double declination) {
+  const double c = std::cos(declination);
+  return {c * std::cos(right_ascension), c * std::sin(right_ascension), std::sin(declination)};
+}
+
 /// Where the z axis of a camera or rig points, and how its image stands [rad].
 struct Pointing {
   double right_ascension;  ///< 0 to 2π

@@ -8,28 +8,6 @@
 namespace omma {
 namespace {
 
-std::uint32_t turned(std::uint32_t word, int by, int length) {
-  const std::uint32_t mask = (1U << length) - 1;
-  return by == 0 ? word : ((word >> by) | (word << (length - by))) & mask;
-}
-
-bool can_be_followed(std::uint32_t word, int length) {
-  const std::uint32_t dark = ~word & ((1U << length) - 1);
-  return (dark & turned(dark, 1, length)) == 0 && std::popcount(dark) >= 2;
-}
-
-bool differs_from_itself(std::uint32_t word, int length, int distance) {
-  for (int by = 1; by < length; ++by)
-    if (std::popcount(word ^ turned(word, by, length)) < distance) return false;
-  return true;
-}
-
-bool differs(std::uint32_t word, std::uint32_t other, int length, int distance) {
-  for (int by = 0; by < length; ++by)
-    if (std::popcount(word ^ turned(other, by, length)) < distance) return false;
-  return true;
-}
-
 double log_sum(double a, double b) {
   const double larger = std::max(a, b);
   return larger + std::log1p(std::exp(std::min(a, b) - larger));
@@ -38,16 +16,19 @@ double log_sum(double a, double b) {
 }  // namespace
 
 BlinkCodes make_blink_codes(int count, int length, int distance) {
-  if (length < 8 || length > 20) throw std::invalid_argument("a blinking code has 8 to 20 bits");
+  if (length < kFewestCodeBits || length > 20)
+    throw std::invalid_argument("a blinking code has 8 to 20 bits");
   BlinkCodes codes;
   codes.length = length;
   for (std::uint32_t word = 1; word < (1U << length) && static_cast<int>(codes.words.size()) < count;
        ++word) {
-    if (!can_be_followed(word, length) || !differs_from_itself(word, length, distance)) continue;
+    if (!can_be_followed(word, length) || least_difference(word, word, length) < distance) continue;
     const bool fits = std::all_of(codes.words.begin(), codes.words.end(), [&](std::uint32_t other) {
-      return differs(word, other, length, distance);
+      return least_difference(word, other, length) >= distance;
     });
-    if (fits) codes.words.push_back(word);
+    if (!fits) continue;
+    // Any phase is as good as another; the same one would let many be dark in the same frame.
+    codes.words.push_back(turned(word, static_cast<int>(codes.words.size()) % length, length));
   }
   return codes;
 }

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace omma {
+#include "components/catalogue/blink_word.hpp"
 
-inline constexpr int kMostCodeBits = 32;
+namespace omma {
 
 /// Cyclic words of `length` bits.
 struct BlinkCodes {
@@ -20,7 +20,8 @@ struct BlinkCodes {
 
 /// As many codes as asked for, or as there are: any two, and any code and its own turned by a phase, differ
 /// in at least `distance` bits; no two dark bits follow each other; each is dark at least twice. The first
-/// found in ascending order: the same every time. Start-up only.
+/// found in ascending order, each turned by one phase more so that not many are dark at once: the same every
+/// time. Start-up only.
 /// @param length  8 to 20
 BlinkCodes make_blink_codes(int count, int length, int distance);
 

@@ -12,6 +12,7 @@ constexpr std::size_t kFewestDots = 4;
 constexpr double kAngleSigmas = 3.5;          // tolerance of the angle between two dots
 constexpr double kShortestPair = 0.1;         // of the camera's field: shorter pairs fix the attitude badly
 constexpr double kEntriesPerHypothesis = 32;  // table entries passed over cost as much as one hypothesis
+constexpr double kOutsidePrior = 0.1;         // cost of a hypothesis that the prior excludes, in hypotheses
 constexpr double kRefinementCost = 500;       // of one refinement, in hypotheses
 
 /// Axes fixed by two directions, as columns: along their sum, their difference, and at right angles.
@@ -66,36 +67,51 @@ double StarIdentification::ratio_to_accept(std::uint32_t hypothesis) const noexc
 
 void StarIdentification::identify_near(const Eigen::Quaterniond& rig_from_j2000, double largest_angle,
                                        std::span<const RigDot> dots, Identification& result) noexcept {
-  aided_ = true;
-  prior_j2000_from_rig_ = rig_from_j2000.conjugate().toRotationMatrix();
-  least_prior_trace_ = 1 + 2 * std::cos(std::min(largest_angle, std::numbers::pi));
-  identify(dots, result);
-  aided_ = false;
+  const double cosine = std::cos(std::min(largest_angle, std::numbers::pi));
+  identify_aided({rig_from_j2000.conjugate().toRotationMatrix(), 1 + 2 * cosine}, dots, result);
+}
+
+void StarIdentification::identify_pointing(const Eigen::Vector3d& axis, const Eigen::Vector3d& direction,
+                                           double largest_angle, std::span<const RigDot> dots,
+                                           Identification& result) noexcept {
+  identify_aided({direction * axis.transpose(), std::cos(std::min(largest_angle, std::numbers::pi))}, dots,
+                 result);
+}
+
+void StarIdentification::identify_aided(const Prior& prior, std::span<const RigDot> dots,
+                                        Identification& result) noexcept {
+  prior_ = prior;
+  search_all(dots, std::min(parameters_.aided_limit, parameters_.hypothesis_limit), result);
+  prior_.reset();
 }
 
 void StarIdentification::identify(std::span<const RigDot> dots, Identification& result) noexcept {
+  if (search_all(dots, parameters_.hypothesis_limit, result) || dots.size() < kFewestDots) return;
+  if (parameters_.names_mirrored && mirrored(dots, result)) result.status = IdentificationStatus::kMirrored;
+}
+
+bool StarIdentification::search_all(std::span<const RigDot> dots, double limit,
+                                    Identification& result) noexcept {
   result.status = IdentificationStatus::kTooFewDots;
   result.matches.clear();
   result.hypotheses = 0;
   result.log10_false_match = 0;
-  if (dots.size() < kFewestDots) return;
+  if (dots.size() < kFewestDots) return false;
 
   constexpr Pass kPasses[] = {{DotOrder::kBrightness, 1.0, 0.35},
                               {DotOrder::kSpread, 1.0, 0.25},
                               {DotOrder::kBrightness, 3.0, 0.15},
                               {DotOrder::kSpread, 3.0, 0.10},
                               {DotOrder::kBrightness, 8.0, 0.15}};
-  const double limit = parameters_.hypothesis_limit;
   tried_ = 0;
   double until = 0;
   for (const Pass& pass : kPasses) {
     until += pass.share * limit;
     result.widening = pass.widening;
-    if (search(dots, pass, until, result)) return;
+    if (search(dots, pass, until, result)) return true;
   }
   result.status = tried_ >= limit ? IdentificationStatus::kSearchCut : IdentificationStatus::kNotVerified;
-  if (parameters_.names_mirrored && !aided_ && mirrored(dots, result))
-    result.status = IdentificationStatus::kMirrored;
+  return false;
 }
 
 bool StarIdentification::search(std::span<const RigDot> dots, const Pass& pass, double until,
@@ -134,8 +150,10 @@ bool StarIdentification::try_pair(std::span<const SearchDot> order, std::size_t 
       if (tried_ >= until) return false;
       const Eigen::Matrix3d j2000_from_rig =
           axes_of(stars[first].direction, stars[second].direction) * rig_axes.transpose();
-      // The trace of AᵀB is the sum of the products of their elements.
-      if (aided_ && j2000_from_rig.cwiseProduct(prior_j2000_from_rig_).sum() < least_prior_trace_) continue;
+      if (prior_ && j2000_from_rig.cwiseProduct(prior_->weight).sum() < prior_->least) {
+        tried_ += kOutsidePrior;
+        continue;
+      }
       if (!prepared) evidence_.rest_on(order, i, k);
       prepared = true;
       tried_ += 1;

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "components/catalogue/star_catalogue.hpp"
@@ -39,6 +40,7 @@ const char* reason(IdentificationStatus status) noexcept;
 struct IdentificationParameters {
   double false_match_probability = 1e-7;   ///< bound, over all hypotheses tried for one set of dots
   std::uint32_t hypothesis_limit = 60000;  ///< bound on the work
+  std::uint32_t aided_limit = 4000;        ///< the same of an aided search
   bool names_mirrored = true;  ///< when nothing fits, look whether a mirror image would (half the work again)
 };
 
@@ -68,9 +70,15 @@ class StarIdentification {
 
   /// Aided: the attitude is known to within an angle. Only hypotheses inside it are tried, so that fewer
   /// stars suffice for the same bound. No mirror images.
-  /// @param largest_angle  between `prior` and the truth [rad]
+  /// @param largest_angle  between the prior attitude and the true one [rad]
   void identify_near(const Eigen::Quaterniond& rig_from_j2000, double largest_angle,
                      std::span<const RigDot> dots, Identification& result) noexcept;
+
+  /// Aided by where an axis of the rig points; the roll about it is not known.
+  /// @param axis       unit, rig frame; `direction` unit, J2000
+  /// @param largest_angle  between the direction and where the axis truly points [rad]
+  void identify_pointing(const Eigen::Vector3d& axis, const Eigen::Vector3d& direction, double largest_angle,
+                         std::span<const RigDot> dots, Identification& result) noexcept;
 
   const StarPairs& pairs() const { return pairs_; }
 
@@ -96,9 +104,16 @@ class StarIdentification {
   SkyEvidence evidence_;
   StarMatching matching_;
   std::array<RigDot, limits::kDotsPerCamera> mirror_;
-  bool aided_ = false;
-  Eigen::Matrix3d prior_j2000_from_rig_ = Eigen::Matrix3d::Identity();
-  double least_prior_trace_ = -1;  // of the rotation between prior and hypothesis: 1 + 2 cos of the angle
+  /// A hypothesis M = j2000_from_rig is tried where Σ Mᵢⱼ weightᵢⱼ ≥ least. Of an attitude P the sum is the
+  /// trace of PᵀM, 1 + 2 cos of the angle between them; of an axis a and a direction d, weight d aᵀ, it is d
+  /// · M a.
+  struct Prior {
+    Eigen::Matrix3d weight;
+    double least;
+  };
+  void identify_aided(const Prior& prior, std::span<const RigDot> dots, Identification& result) noexcept;
+  bool search_all(std::span<const RigDot> dots, double limit, Identification& result) noexcept;
+  std::optional<Prior> prior_;
   double tried_ = 0;  // hypotheses and the table entries looked at for them, in units of one hypothesis
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/estimation/covariance.hpp"
+
 namespace omma {
 
 Tracker::Tracker(const TrackerParameters& parameters, const Rig& rig, const StarCatalogue& catalogue,
@@ -11,13 +13,15 @@ Tracker::Tracker(const TrackerParameters& parameters, const Rig& rig, const Star
       rig_(rig),
       catalogue_(catalogue),
       star_identification_(catalogue, sky_coverage(rig, masks)),
-      sky_prediction_(parameters.sky_angular_acceleration) {
+      sky_prediction_(parameters.sky_angular_acceleration),
+      lost_sky_(parameters.sky_angular_acceleration) {
   bodies_.reserve(bodies.size());
   for (const TargetBody& body : bodies) {
     bodies_.push_back(
         {&body,
          TargetIdentifier(body),
          PosePrediction(parameters.body_angular_acceleration, parameters.body_linear_acceleration),
+         blinks(body) ? std::make_unique<BlinkingBody>(body) : nullptr,
          {}});
   }
   pairings->bodies.resize(bodies_.size());
@@ -59,6 +63,7 @@ void Tracker::step(const Tick& /*tick*/) noexcept {
 void Tracker::take_news() noexcept {
   take_parameters(*tuning, parameters_);
   sky_prediction_.set_acceleration(parameters_.sky_angular_acceleration);
+  lost_sky_.set_acceleration(parameters_.sky_angular_acceleration);
   for (TrackedBody& tracked : bodies_)
     tracked.prediction.set_accelerations(parameters_.body_angular_acceleration,
                                          parameters_.body_linear_acceleration);
@@ -79,6 +84,7 @@ void Tracker::learn() noexcept {
 
 void Tracker::forget() noexcept {
   sky_prediction_.reset();
+  lost_sky_.reset();
   for (TrackedBody& tracked : bodies_) tracked.prediction.reset();
   forget_ = false;
 }
@@ -203,6 +209,7 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
     claim_nothing(sky.pairs);
     claim_nothing(sky_pairing_.solar_pairs());
     sky.pairs.clear();
+    lost_sky_ = sky_prediction_;
     sky_prediction_.reset();
     return;
   }
@@ -212,9 +219,12 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
 }
 
 void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
-  const std::size_t count = seen_.unclaimed(unclaimed_);
-  star_identification_.identify({unclaimed_.data(), count}, identification_);
-  if (identification_.status != IdentificationStatus::kIdentified) return;
+  const std::span<const RigDot> rays(unclaimed_.data(), seen_.unclaimed(unclaimed_));
+  if (!recall_sky(rays)) {
+    star_identification_.identify(rays, identification_);
+    if (identification_.status != IdentificationStatus::kIdentified) return;
+    lost_sky_.reset();  // it is not where it was expected
+  }
   // The identified attitude predicts all the other stars, as a tracked one would.
   SkyPairings& sky = pairings->sky;
   const PredictedAttitude found{identification_.rig_from_j2000, identification_.covariance};
@@ -225,12 +235,34 @@ void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   sky.rig_from_j2000 = found.rig_from_j2000;
 }
 
+// The sky is looked for where the last attitudes expect it, as long as that says anything: fewer stars prove
+// an attitude that is expected. A wrong expectation costs the aided search and nothing else: what it accepts
+// is proved by the same bound.
+bool Tracker::recall_sky(std::span<const RigDot> rays) noexcept {
+  constexpr double kSigmas = 5;
+  constexpr double kUnforeseen = 0.02;  // [rad] beside what the prediction knows of
+  constexpr double kWidest = 0.5;       // [rad] then it excludes too little
+  const AttitudePrediction& last = sky_prediction_.ready() ? sky_prediction_ : lost_sky_;
+  if (!last.ready()) return false;
+  const PredictedAttitude expected = last.at(dots->time_ns);
+  const double angle = kUnforeseen + kSigmas * largest_sigma(expected.covariance);
+  if (!(angle < kWidest)) return false;
+  star_identification_.identify_near(expected.rig_from_j2000, angle, rays, identification_);
+  return identification_.status == IdentificationStatus::kIdentified;
+}
+
 int Tracker::acquire_bodies() noexcept {
   int acquired = 0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     BodyPairings& out = pairings->bodies[b];
-    if (out.state != TrackState::kLost) continue;
-    acquire_body(bodies_[b], out);
+    if (out.state != TrackState::kLost) {
+      if (bodies_[b].codes) bodies_[b].codes->watch(dots->frame, seen_, out);
+      continue;
+    }
+    if (bodies_[b].codes)
+      acquire_blinking(*bodies_[b].codes, out);
+    else
+      acquire_body(bodies_[b], out);
     acquired += out.state == TrackState::kAcquired ? 1 : 0;
   }
   return acquired;
@@ -252,6 +284,15 @@ void Tracker::acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept {
   }
   out.state = TrackState::kAcquired;
   out.rig_from_body = found.pose.rig_from_body;
+}
+
+void Tracker::acquire_blinking(BlinkingBody& codes, BodyPairings& out) noexcept {
+  if (!codes.look(dots->frame, seen_, out)) {
+    out.pairs.clear();
+    return;
+  }
+  for (const Pairing& pair : out.pairs) seen_.claimed(pair.camera)[pair.dot] = 1;
+  out.state = TrackState::kAcquired;
 }
 
 // Two dots of one star, in two cameras, are one thing.

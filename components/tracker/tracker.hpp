@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "components/extractor/dot_lists.hpp"
 #include "components/geometry/rig.hpp"
 #include "components/pose/pose_estimate.hpp"
+#include "components/tracker/blinking_body.hpp"
 #include "components/tracker/body_pairing.hpp"
 #include "components/tracker/constant_rate.hpp"
 #include "components/tracker/pairings.hpp"
@@ -66,6 +68,7 @@ class Tracker final : public Component, public CommandReceiver {
     const TargetBody* body = nullptr;
     TargetIdentifier identifier;
     PosePrediction prediction;
+    std::unique_ptr<BlinkingBody> codes;  // none where it is known by its pattern
     std::array<Persistence, limits::kTargetsPerBody> persistence{};
   };
 
@@ -78,8 +81,10 @@ class Tracker final : public Component, public CommandReceiver {
   void track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept;
   void track_sky(std::span<const HiddenCone> cones) noexcept;
   void acquire_sky(std::span<const HiddenCone> cones) noexcept;
+  bool recall_sky(std::span<const RigDot> rays) noexcept;
   int acquire_bodies() noexcept;  ///< how many
   void acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept;
+  void acquire_blinking(BlinkingBody& codes, BodyPairings& out) noexcept;
   void count_persistence(Pairing& pair, Persistence& persistence) const noexcept;
   void count_persistence() noexcept;
   void claim_nothing(std::span<const Pairing> pairs) noexcept;
@@ -92,6 +97,7 @@ class Tracker final : public Component, public CommandReceiver {
   Identification identification_;
   std::vector<TrackedBody> bodies_;  // filled once, at construction
   AttitudePrediction sky_prediction_;
+  AttitudePrediction lost_sky_;  // the prediction when the sky was lost: where to look for it first
   SeenDots seen_;
   SkyPairing sky_pairing_;
   BodyPairing body_pairing_;

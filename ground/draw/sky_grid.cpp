@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "components/geometry/angles.hpp"
+
 namespace omma::ground {
 namespace {
 
@@ -15,9 +17,7 @@ const Colour kGridColour{0.45, 0.62, 0.85, 0.42};
 const Colour kGridTextColour{0.62, 0.76, 0.95, 0.85};
 
 Eigen::Vector3d direction_of(double right_ascension_deg, double declination_deg) {
-  const double ra = right_ascension_deg * kRadians;
-  const double dec = declination_deg * kRadians;
-  return {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+  return direction_at(right_ascension_deg * kRadians, declination_deg * kRadians);
 }
 
 std::string right_ascension_label(double degrees) {

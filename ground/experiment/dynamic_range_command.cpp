@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "components/catalogue/star_catalogue.hpp"
+#include "components/geometry/angles.hpp"
 #include "components/geometry/lens_file.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/draw/canvas.hpp"
@@ -39,9 +40,7 @@ struct Arguments {
 };
 
 Eigen::Vector3d region_centre(const Arguments& a) {
-  const double ra = a.region[0] * kDegree;
-  const double dec = a.region[1] * kDegree;
-  return {std::cos(dec) * std::cos(ra), std::cos(dec) * std::sin(ra), std::sin(dec)};
+  return direction_at(a.region[0] * kDegree, a.region[1] * kDegree);
 }
 
 GreyImage grey_of(const std::vector<std::uint16_t>& pixels, const sim::CameraView& view) {

@@ -49,7 +49,8 @@ struct PhotographSolver::Work {
         // Two stars within two pixels are one dot.
         catalogue(options.observer, {options.magnitude_limit, 2 * finest_pixel_angle(rig)}),
         places(solar_system(options.observer, options.observer.site ? 0 : kEarthRadius)),
-        identification(catalogue, sky_coverage(rig), {.hypothesis_limit = kHypothesisLimit}) {
+        identification(catalogue, sky_coverage(rig),
+                       {.hypothesis_limit = kHypothesisLimit, .aided_limit = kHypothesisLimit}) {
     if (options.observer.julian_date_utc) sky_pairing.look_for(places);
     for (const RigCamera& camera : rig.cameras) {
       extractors.push_back(std::make_unique<DotExtractor>(camera.lens.width(), camera.lens.height()));
@@ -91,7 +92,16 @@ void PhotographSolver::Work::extract(const std::vector<ImageView>& images) {
 
 bool PhotographSolver::Work::identify(PhotographSolution& solution) {
   seen.build(dots, rig, kLensErrorAtFirst);
-  identification.identify(seen.rays(), identified);
+  if (options.near) {
+    const Eigen::Vector3d axis = rig.cameras[0].rig_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    identification.identify_pointing(axis, options.near->direction, options.near->radius, seen.rays(),
+                                     identified);
+  }
+  if (!options.near || identified.status != IdentificationStatus::kIdentified) {
+    identification.identify(seen.rays(), identified);
+    solution.away_from_hint =
+        options.near.has_value() && identified.status == IdentificationStatus::kIdentified;
+  }
   solution.log10_false_match = identified.log10_false_match;
   if (identified.status == IdentificationStatus::kIdentified) return true;
   solution.reason = reason(identified.status);

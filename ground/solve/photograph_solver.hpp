@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/geometry/rig.hpp"
 #include "ground/photographs/solved_pairs.hpp"
+#include "ground/solve/sky_hint.hpp"
 #include "hal/image.hpp"
 
 namespace omma::ground {
@@ -23,6 +25,7 @@ struct SolverOptions {
   Observer observer;
   ExtractorParameters extractor;
   float magnitude_limit = 6.5F;  ///< faintest star paired
+  std::optional<SkyHint> near;   ///< looked for there first: fewer stars suffice
 };
 
 struct SolvedCamera {
@@ -47,6 +50,7 @@ struct PhotographSolution {
   std::vector<SolvedPair> solar;  ///< dots of Moon and planets; `entry` is a SolarBody. None without an epoch
   int stars_used = 0;
   double residual_rms_px = 0;
+  bool away_from_hint = false;   ///< there was a hint, and the attitude was found elsewhere
   double log10_false_match = 0;  ///< bound on the probability that the identification is false
   SolveTimes times;
 };

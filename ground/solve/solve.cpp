@@ -15,6 +15,7 @@ struct Arguments {
   PhotographArguments photographs;
   std::string epoch;
   std::string site;
+  std::string near;
   bool json = false;
   std::string annotate;
 };
@@ -44,6 +45,7 @@ int solve(const Arguments& arguments) {
   SolverOptions options;
   if (!arguments.epoch.empty()) options.observer.julian_date_utc = parse_utc(arguments.epoch);
   if (!arguments.site.empty()) options.observer.site = parse_ground_site(arguments.site);
+  if (!arguments.near.empty()) options.near = parse_sky_hint(arguments.near);
   bool all_solved = true;
   for (std::size_t set = 0; set < set_count(arguments.photographs); ++set)
     all_solved = solve_set(arguments, options, set) && all_solved;
@@ -54,11 +56,13 @@ int solve(const Arguments& arguments) {
 
 void add_solve(CLI::App& app, CommandContext& context) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("solve", "Attitude from photographs of the sky, with no hint");
+  CLI::App* command = app.add_subcommand("solve", "Attitude from photographs of the sky; no hint is needed");
   add_photograph_options(*command, arguments->photographs);
   command->add_option("--epoch", arguments->epoch,
                       "UTC of the exposure: proper motion and aberration are applied");
   command->add_option("--site", arguments->site, "LAT,LON,HEIGHT of the ground site: refraction is applied");
+  command->add_option("--near", arguments->near,
+                      "RA,DEC,RADIUS in degrees: the first camera looks near there; fewer stars suffice");
   command->add_flag("--json", arguments->json, "one JSON object instead of text");
   command->add_option("--annotate", arguments->annotate,
                       "write the picture with circled dots and named stars");

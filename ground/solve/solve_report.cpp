@@ -44,6 +44,7 @@ std::string solution_text(const Rig& rig, const PhotographSolution& solution, co
       format("1-sigma          x %.2f\"  y %.2f\"  z %.2f\" (rig axes)\n", sigma.x(), sigma.y(), sigma.z());
   text += format("stars used       %d, residual rms %.3f px, false match below 1e%.0f\n", solution.stars_used,
                  solution.residual_rms_px, solution.log10_false_match);
+  if (solution.away_from_hint) text += "hint             wrong: found elsewhere than --near says\n";
   for (const SolvedPair& pair : solution.solar) {
     const Dot& dot = dots.cameras[pair.pairing.camera].dots[pair.pairing.dot];
     text +=
@@ -71,6 +72,7 @@ std::string solution_json(const Rig& rig, const PhotographSolution& solution, co
   }
   json["stars_used"] = solution.stars_used;
   json["residual_rms_px"] = solution.residual_rms_px;
+  json["away_from_hint"] = solution.away_from_hint;
   json["cameras"] = nlohmann::ordered_json::array();
   for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
     nlohmann::ordered_json camera;

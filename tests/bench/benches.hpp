@@ -4,6 +4,7 @@
 namespace omma {
 
 int bench_acquire(int argc, char** argv);
+int bench_approach(int argc, char** argv);
 int bench_attitude(int argc, char** argv);
 int bench_axes(int argc, char** argv);
 int bench_blink(int argc, char** argv);

@@ -16,6 +16,8 @@ struct Bench {
 constexpr Bench kBenches[] = {
     {"acquire", omma::bench_acquire,
      "cold start, dots to attitude and pose: time, solved, wrong, error over bound, NEES"},
+    {"approach", omma::bench_approach,
+     "approaches through all range modes, other directions, speeds, lights: NEES, hand-overs, wrong"},
     {"attitude", omma::bench_attitude, "attitude from paired stars: time, error over bound, NEES"},
     {"axes", omma::bench_axes,
      "axes of a swung platform and their shims: error of the whole fit against a circle, NEES"},

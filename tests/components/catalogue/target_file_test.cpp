@@ -46,7 +46,7 @@ TEST(TargetFile, WrongEntriesAreNamedWithTheirLine) {
   EXPECT_THAT(error_of(good + "T02\t0\t0.1\t0\t1\t7\n"), HasSubstr("card.tsv:2: type"));
   EXPECT_THAT(error_of(good + "T02 0 0.1 0 1 1\n"),
               HasSubstr("card.tsv:2: target: expected 6 fields between tabs: id x y z group type (or 9, with "
-                        "a normal nx ny nz), found 1"));
+                        "a normal nx ny nz; or one more, with a blinking code), found 1"));
   EXPECT_THAT(error_of(good + "T02\t0\t0.1\t0\t1\n"), HasSubstr("found 5"));
   EXPECT_THAT(error_of(std::string(40, 'T') + "\t0\t0.1\t0\t1\t1\n"), HasSubstr("limits::kNameLength"));
   EXPECT_THAT(error_of("id\tx\ty\tz\tgroup\ttype\n"),
@@ -73,6 +73,33 @@ TEST(TargetFile, FacesMayHaveNormals) {
               HasSubstr("card.tsv:1: nx: expected a normal that is not zero"));
   EXPECT_THAT(error_of("A\t0\t0\t1\t1\t1\t0\t0\tup\n"),
               HasSubstr("card.tsv:1: nz: expected a finite number"));
+}
+
+TEST(TargetFile, LightsMayBlink) {
+  const TargetBody body = targets_from_text(
+      "A\t0\t0\t1\t1\t1\t0\t0\t2\t1101101010101010\nB\t0\t1\t0\t1\t1\t1101110101101010\nC\t1\t1\t0\t1\t1\n",
+      "box.tsv");
+  EXPECT_EQ(body.targets[0].code.length, 16);
+  EXPECT_EQ(body.targets[0].normal.z(), 1);
+  EXPECT_TRUE(body.targets[1].code.lit(0));
+  EXPECT_FALSE(body.targets[1].code.lit(2));
+  EXPECT_FALSE(body.targets[1].code.lit(18));
+  EXPECT_FALSE(body.targets[2].code.blinks());
+  EXPECT_TRUE(body.targets[2].code.lit(2));
+}
+
+TEST(TargetFile, CodesThatTellNothingAreRefused) {
+  const auto told = [](const std::string& code) {
+    return error_of("A\t0\t0\t1\t1\t1\t1101101010101010\nB\t0\t1\t0\t1\t1\t" + code + "\n");
+  };
+  EXPECT_THAT(told("110"), HasSubstr("card.tsv:2: code: expected 8 to 32 characters 0 or 1"));
+  EXPECT_THAT(told("11x1101010101010"), HasSubstr("expected 8 to 32 characters 0 or 1"));
+  EXPECT_THAT(told("1001110101101010"), HasSubstr("two zeros at least, and none beside another"));
+  EXPECT_THAT(told("0111111111111110"), HasSubstr("none beside another"));
+  EXPECT_THAT(told("1010101010101010"), HasSubstr("differs from itself turned by a phase"));
+  EXPECT_THAT(told("11011101"), HasSubstr("differs from itself turned by a phase"));
+  EXPECT_THAT(told("1101110101"), HasSubstr("expected as many bits as A has, 16"));
+  EXPECT_THAT(told("1011011010101010"), HasSubstr("differs from that of A in two bits at every phase"));
 }
 
 TEST(TargetFile, MissingFileIsNamed) {

@@ -12,11 +12,6 @@
 namespace omma {
 namespace {
 
-std::uint32_t turned(std::uint32_t word, int by, int length) {
-  const std::uint32_t mask = (1U << length) - 1;
-  return ((word << by) | (word >> (length - by))) & mask;
-}
-
 TEST(BlinkCodes, DifferAtEveryPhaseAndAreNeverDarkTwiceInARow) {
   const BlinkCodes codes = make_blink_codes(16, 20, 4);
   ASSERT_EQ(codes.words.size(), 16U);

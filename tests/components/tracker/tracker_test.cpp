@@ -22,7 +22,7 @@ class TrackedSky : public ::testing::Test {
     tracker_->poses.bind(*poses_);
   }
 
-  enum class Seen { kSky, kNothing, kFalseDots };
+  enum class Seen { kSky, kNothing, kFalseDots, kFewStars };
 
   TrackState step(Seen seen = Seen::kSky) {
     ++frame_;
@@ -31,7 +31,10 @@ class TrackedSky : public ::testing::Test {
     lists.frame = frame_;
     lists.time_ns = static_cast<TimeNs>(frame_) * kInterval;
     sky_.see(truth_, lists);
-    if (seen != Seen::kSky) {
+    if (seen == Seen::kFewStars) {
+      for (std::size_t c = 1; c < lists.cameras.size(); ++c) lists.cameras[c].dots.clear();
+      few_among_false(lists.cameras[0]);
+    } else if (seen != Seen::kSky) {
       for (DotList& list : lists.cameras) list.dots.clear();
     }
     if (seen == Seen::kFalseDots) scatter(lists);
@@ -63,6 +66,26 @@ class TrackedSky : public ::testing::Test {
     }
   }
 
+  // The four brightest stars behind ten false dots that are brighter.
+  static void few_among_false(DotList& list) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> u(5, 1018);
+    std::uniform_real_distribution<double> v(5, 762);
+    list.dots.resize(4);
+    for (int i = 0; i < 10; ++i) {
+      Dot dot = list.dots[0];
+      dot.flux *= 2;
+      dot.pixel = Eigen::Vector2d(u(random), v(random));
+      list.dots.push_back(dot);
+    }
+  }
+
+  static Eigen::Quaterniond any_attitude(std::mt19937_64& random) {
+    std::normal_distribution<double> gauss;
+    const double x = gauss(random), y = gauss(random), z = gauss(random), w = gauss(random);
+    return Eigen::Quaterniond(w, x, y, z).normalized();
+  }
+
   int wrong_pairs() const {
     int count = 0;
     for (const Pairing& p : tracker_->pairings->sky.pairs)
@@ -70,6 +93,10 @@ class TrackedSky : public ::testing::Test {
     return count;
   }
   double start_error() const { return tracker_->pairings->sky.rig_from_j2000.angularDistance(truth_); }
+  void start_anew() {
+    tracker_->receive(Command{}, Tick{});
+    (**attitude_).valid = false;
+  }
   void track() {
     for (int i = 0; i < 4; ++i) step();
     ASSERT_EQ(tracker_->pairings->sky.state, TrackState::kTracking);
@@ -146,6 +173,46 @@ TEST_F(TrackedSky, APredictionIsNotTrustedWithoutEstimatesForLong) {
     (**attitude_).valid = false;
   }
   EXPECT_EQ(step(), TrackState::kAcquired);
+}
+
+// Four stars behind ten false dots prove no attitude among all there are; they prove one that is expected.
+TEST_F(TrackedSky, IsFoundAgainWithFewerStarsWhereItIsExpected) {
+  int expected = 0, unexpected = 0, wrong = 0;
+  std::mt19937_64 random(4);
+  const auto found = [&] {
+    const bool acquired = step(Seen::kFewStars) == TrackState::kAcquired;
+    wrong += acquired && start_error() > 0.01 ? 1 : 0;
+    return acquired ? 1 : 0;
+  };
+  for (int trial = 0; trial < 30; ++trial) {
+    truth_ = any_attitude(random);
+    start_anew();
+    track();
+    EXPECT_EQ(step(Seen::kNothing), TrackState::kLost);
+    expected += found();
+    start_anew();
+    unexpected += found();
+  }
+  EXPECT_GE(expected, 18);
+  EXPECT_LE(unexpected, 4);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(TrackedSky, AWrongExpectationNeverMakesAWrongAttitude) {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 30; ++trial) {
+    truth_ = any_attitude(random);
+    start_anew();
+    track();
+    step(Seen::kNothing);
+    truth_ = rotation_exp(0.03 * (trial + 1) * Eigen::Vector3d::UnitX()) * truth_;  // by up to 50 degrees
+    if (step(Seen::kFewStars) != TrackState::kLost) {
+      EXPECT_LT(start_error(), 0.01) << trial;
+    }
+    EXPECT_EQ(step(), TrackState::kAcquired);
+    EXPECT_EQ(wrong_pairs(), 0);
+    EXPECT_LT(start_error(), 1e-4);
+  }
 }
 
 TEST_F(TrackedSky, OneCameraIsEnough) {

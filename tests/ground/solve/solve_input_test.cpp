@@ -191,6 +191,13 @@ TEST_F(SolveInput, NamesAnEpochOrASiteThatCannotBeRead) {
   expect_refused("sky.png --lens lens.txt --site 78,16,0", HasSubstr("--site: expected --epoch with it"));
 }
 
+TEST_F(SolveInput, NamesAHintThatCannotBeRead) {
+  for (const char* hint : {"orion", "83,-5", "83,-5,10,2", "83,-95,10", "361,0,10", "83,-5,0", "83,-5,nan"})
+    expect_refused("sky.png --lens lens.txt --near " + std::string(hint),
+                   AllOf(HasSubstr("arguments: --near: expected RA,DEC,RADIUS in degrees"),
+                         HasSubstr("found \"" + std::string(hint) + "\"")));
+}
+
 TEST_F(SolveInput, AsksForOneSourceOfTheLens) {
   expect_refused("sky.png", HasSubstr("lens: expected one of --lens, --rig and --fov, found none"));
   expect_refused("sky.png --lens lens.txt --fov 60",

@@ -154,5 +154,28 @@ TEST(SolveProgram, SolvesAFieldOfAnAssumedPinhole) {
   expect_right(photograph, json::parse(run.out));
 }
 
+TEST(SolveProgram, AHintIsFollowedAndAWrongOneIsTold) {
+  const auto all = shared(PhotographGroup::kMediumField);
+  OMMA_NEEDS(all);
+  const OperatorsFolder folder;
+  const Photograph& photograph = all[0];
+  std::ostringstream start;
+  start.precision(12);
+  start << "solve --json " << quoted(photograph.images[0]) << " --fov " << photograph.fov_deg;
+  const json unaided = json::parse(folder.omma(start.str()).out);
+  const double ra = unaided.at("cameras").at(0).at("ra_deg"), dec = unaided.at("cameras").at(0).at("dec_deg");
+  const auto told = [&](double hint_dec) {
+    std::ostringstream arguments;
+    arguments << start.str() << " --near " << ra << "," << hint_dec << ",5";
+    return json::parse(folder.omma(arguments.str()).out);
+  };
+  const json near = told(dec + 2);
+  expect_right(photograph, near);
+  EXPECT_FALSE(near.at("away_from_hint").get<bool>());
+  const json wrong = told(dec > 0 ? dec - 60 : dec + 60);
+  expect_right(photograph, wrong);
+  EXPECT_TRUE(wrong.at("away_from_hint").get<bool>());
+}
+
 }  // namespace
 }  // namespace omma

@@ -1,6 +1,7 @@
 // Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes. `--trials N`
 // (200; 10000 for the full table), `--false-skies N` skies of false dots alone (as many; 100000), `--row K`
-// one row only (19: the false skies). A wrong answer makes the exit code 1.
+// one row only (19: the false skies), `--limit N` hypotheses (the default is the flight's). A wrong answer
+// makes the exit code 1.
 #include <cstdio>
 #include <memory>
 #include <numbers>
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+constexpr std::size_t kPoor = 5;  // with fewer dots hardly any attitude can be proved
+
 struct Case {
   const char* name;
   Rig rig;
@@ -25,10 +28,11 @@ struct Case {
 };
 
 // @return wrong answers
-int run(const Case& c, int trials) {
+int run(const Case& c, int trials, const IdentificationParameters& parameters) {
   const auto catalogue =
       std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, c.resolution_deg * kDegree});
-  const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig));
+  const auto identification =
+      std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig), parameters);
   const auto answer = std::make_unique<Identification>();
   std::mt19937_64 random(2010), aside(7);
   std::vector<double> times;
@@ -36,6 +40,7 @@ int run(const Case& c, int trials) {
   std::vector<double> dots;
   int right = 0;
   int wrong = 0;
+  int poor = 0, poor_solved = 0;  // skies with fewer than five dots, and which of them were solved
   for (int trial = 0; trial < trials; ++trial) {
     const SkyProblem problem = random_sky(c.rig, catalogue->stars(), c.options, random);
     std::normal_distribution<double> gauss;
@@ -54,11 +59,17 @@ int run(const Case& c, int trials) {
     wrong += verdict == SkyVerdict::kWrong ? 1 : 0;
     hypotheses.push_back(answer->hypotheses);
     dots.push_back(double(problem.dots.size()));
+    poor += problem.dots.size() < kPoor ? 1 : 0;
+    poor_solved += problem.dots.size() < kPoor && verdict == SkyVerdict::kRight ? 1 : 0;
   }
   std::printf("%-46s %6d %5.0f %5.0f %8.3f %6d %8.0f %8.0f %8.0f %8.0f %8.0f\n", c.name, trials,
               quantile(dots, 0.5), quantile(dots, 0.0), 100.0 * right / trials, wrong, quantile(times, 0.5),
               quantile(times, 0.99), quantile(times, 1.0), quantile(hypotheses, 0.5),
               quantile(hypotheses, 1.0));
+  if (poor > 0)
+    std::printf(
+        "    skies with fewer than %zu dots: %.3f %% of all, %d of %d solved; of the others %.3f %%\n", kPoor,
+        100.0 * poor / trials, poor_solved, poor, 100.0 * (right - poor_solved) / (trials - poor));
   std::fflush(stdout);
   return wrong;
 }
@@ -141,11 +152,14 @@ int bench_identify(int argc, char** argv) {
        0.25},
       {"3 x 122 deg, 80 % of the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.8}, 0.25},
   };
+  IdentificationParameters parameters;
+  parameters.hypothesis_limit = static_cast<std::uint32_t>(
+      option(argc, argv, "--limit", static_cast<int>(parameters.hypothesis_limit)));
   const int row = option(argc, argv, "--row", 0);
   int number = 0;
   int wrong = 0;
   for (const Case& c : cases) {
-    if (++number == row || row == 0) wrong += run(c, trials);
+    if (++number == row || row == 0) wrong += run(c, trials, parameters);
   }
   if (row == 0 || row > number) wrong += run_nothing_there(option(argc, argv, "--false-skies", trials));
   const std::uint64_t allocations = memory_guard::violations().total();

@@ -1,6 +1,7 @@
 #include "tests/bench/pipeline_picture.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "ground/draw/canvas.hpp"
 #include "ground/draw/stretch.hpp"
@@ -8,7 +9,9 @@
 namespace omma {
 namespace {
 
-constexpr int kWidth = 320, kHeight = 240, kTitle = 18;  // of a panel [px]
+constexpr int kZoom = 2;
+constexpr int kSeenWidth = 240, kSeenHeight = 180;                                      // of the image [px]
+constexpr int kWidth = kZoom * kSeenWidth, kHeight = kZoom * kSeenHeight, kTitle = 20;  // of a panel [px]
 
 ground::Colour colour_of(PanelMark mark) {
   if (mark == PanelMark::kFound) return {0.2, 1, 0.3, 1};
@@ -22,15 +25,15 @@ void PipelinePicture::put(const Panel& panel, const ImageView& image, const Eige
   const ground::GreyPicture picture = ground::stretched(image, ground::night_sky_stretch(image));
   Filled filled{panel, {}, {}};
   const int left =
-      std::clamp(static_cast<int>(middle.x()) - kWidth / 2, 0, std::max(0, image.width - kWidth));
+      std::clamp(static_cast<int>(middle.x()) - kSeenWidth / 2, 0, std::max(0, image.width - kSeenWidth));
   const int top =
-      std::clamp(static_cast<int>(middle.y()) - kHeight / 2, 0, std::max(0, image.height - kHeight));
+      std::clamp(static_cast<int>(middle.y()) - kSeenHeight / 2, 0, std::max(0, image.height - kSeenHeight));
   filled.corner = Eigen::Vector2d(left, top);
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
-      const bool there = left + u < picture.width && top + v < picture.height;
-      filled.pixels.push_back(
-          there ? picture.pixels[static_cast<std::size_t>((top + v) * picture.width + left + u)] : 0);
+      const int x = left + u / kZoom, y = top + v / kZoom;
+      const bool there = x < picture.width && y < picture.height;
+      filled.pixels.push_back(there ? picture.pixels[static_cast<std::size_t>(y * picture.width + x)] : 0);
     }
   }
   panels_.push_back(filled);
@@ -52,12 +55,17 @@ void PipelinePicture::write(const std::string& path) const {
   for (const Filled& filled : panels_) {
     const Eigen::Vector2d corner(filled.panel.column * kWidth,
                                  filled.panel.row * (kHeight + kTitle) + kTitle);
+    std::array<int, 3> count{};
     for (const MarkedPlace& place : filled.panel.places) {
-      const Eigen::Vector2d at = place.pixel - filled.corner;
-      if (at.x() < 6 || at.y() < 6 || at.x() > kWidth - 6 || at.y() > kHeight - 6) continue;
-      canvas.circle(corner + at, 5, colour_of(place.mark), 1);
+      const Eigen::Vector2d at = kZoom * (place.pixel - filled.corner) + Eigen::Vector2d(0.5, 0.5);
+      if (at.x() < 9 || at.y() < 9 || at.x() > kWidth - 9 || at.y() > kHeight - 9) continue;
+      canvas.circle(corner + at, 8, colour_of(place.mark), 1.2);
+      ++count[static_cast<std::size_t>(place.mark)];
     }
-    canvas.text(corner + Eigen::Vector2d(5, -5), filled.panel.title, 12, {1, 1, 1, 1});
+    canvas.text(corner + Eigen::Vector2d(5, -6),
+                filled.panel.title + " - here " + std::to_string(count[0]) + " found, " +
+                    std::to_string(count[1]) + " missed, " + std::to_string(count[2]) + " false",
+                12, {1, 1, 1, 1});
   }
   canvas.write_png(path);
 }

@@ -32,6 +32,7 @@ struct FeedOptions {
   std::string fired_by;
   std::size_t lose_every = 0;
   std::size_t late_every = 0;
+  std::size_t hold_every = 0;
 };
 
 constexpr std::string_view kShared = "simulated:";
@@ -133,9 +134,26 @@ class FeedLog {
   std::ofstream file_;
 };
 
+/// A frame set kept back with the stamp it has.
+struct Held {
+  std::size_t frame = 0;
+  TimeNs time_ns = 0;
+};
+
+void check_hold(const FeedOptions& options, const std::vector<FedCamera>& cameras) {
+  if (options.hold_every == 0) return;
+  for (const FedCamera& camera : cameras)
+    if (camera.device.rfind(kShared, 0) != 0)
+      throw InputError(
+          "omma feed", 0, "--hold-every",
+          "cameras of the driver simulated (a video device stamps its frames when it is given them)",
+          camera.device);
+}
+
 int feed(const FeedOptions& options) {
   std::vector<FedCamera> cameras;
   for (const std::string& argument : options.cameras) cameras.push_back(read_camera(options, argument));
+  check_hold(options, cameras);
   std::size_t count = cameras.front().images.size();
   for (FedCamera& camera : cameras) {
     camera.open();
@@ -153,6 +171,7 @@ int feed(const FeedOptions& options) {
   };
   const std::size_t total = count * static_cast<std::size_t>(options.rounds);
   std::size_t fed = 0, lost = 0, late = 0;
+  std::vector<Held> held;
   for (std::size_t turn = 0; turn < total && instants.wait(turn); ++turn) {
     if (is_every(turn, options.lose_every)) {
       ++lost;
@@ -163,6 +182,13 @@ int feed(const FeedOptions& options) {
       instants.be_late();
     }
     const TimeNs now = instants.now();
+    if (is_every(turn, options.hold_every)) {
+      held.push_back({turn % count, now});
+      continue;
+    }
+    for (const Held& late_one : held)
+      for (const FedCamera& camera : cameras) camera.give(late_one.frame, late_one.time_ns);
+    held.clear();
     for (const FedCamera& camera : cameras) camera.give(turn % count, now);
     log.add(cameras.front().numbers[turn % count], now);
     ++fed;
@@ -198,6 +224,8 @@ void add_feed(CLI::App& app, CommandContext& context) {
   command->add_option("--lose-every", o->lose_every,
                       "Leave out the last of so many, as a camera that misses a pulse");
   command->add_option("--late-every", o->late_every, "Give the last of so many two fifths of a period late");
+  command->add_option("--hold-every", o->hold_every,
+                      "Give the last of so many one frame set later, with the stamp it had");
   command->add_option("--log", o->log, "File (CSV) for the instant each frame set was given");
   command->callback([o, &context] { context.exit_code = feed(*o); });
 }

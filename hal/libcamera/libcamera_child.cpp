@@ -1,14 +1,21 @@
 #include "hal/libcamera/libcamera_child.hpp"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstring>
+#include <ctime>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "fsw/kernel/input_error.hpp"
 #include "hal/libcamera/child_process.hpp"
@@ -21,24 +28,17 @@ namespace {
 constexpr const char* kProgram = "omma-libcamera";
 constexpr int kStartMs = 10'000;  // that a camera may take to stream; sensors that load firmware take seconds
 
-/// The process of all cameras that libcamera drives for this program.
+/// A process of omma-libcamera.
 class Service {
  public:
-  /// The one that runs, or a new one. @throws InputError where it cannot be started
-  static std::shared_ptr<Service> get(const std::string& where) {
-    static std::mutex mutex;
-    static std::weak_ptr<Service> running;
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (auto already = running.lock(); already && !already->ended_.load()) return already;
-    auto made = std::make_shared<Service>();
-    if (const int error = made->process_.start(kProgram); error != 0) {
+  /// @throws InputError where it cannot be started
+  explicit Service(const std::string& where) {
+    if (const int error = process_.start(kProgram); error != 0) {
       throw InputError(where, 0, "driver",
                        std::string("the program ") + kProgram +
                            " of the driver libcamera, which is built where libcamera-dev is installed",
                        std::strerror(error));
     }
-    running = made;
-    return made;
   }
 
   /// One line of it for each line of the answer. @throws std::runtime_error: what it refuses, in its own
@@ -56,7 +56,6 @@ class Service {
       heard = answer.has_value();
       if (heard) take(*answer);
     }
-    ended_.store(true);
     process_.end();
     throw InputError(where, 0, "device", std::string("an answer of ") + kProgram,
                      "none: it ended, or took longer than 10 s");
@@ -64,11 +63,140 @@ class Service {
   void ask(const std::string& where, const std::string& line) {
     ask(where, line, [](const std::string&) {});
   }
+  void end() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    process_.end();
+  }
+  /// The cameras it found when it started, by their ids and models.
+  std::set<std::string> cameras(const std::string& where) {
+    std::set<std::string> names;
+    ask(where, "list", [&](const std::string& line) {
+      for (const std::string_view key : {"camera ", "model "})
+        if (line.rfind(key, 0) == 0) names.insert(line.substr(key.size()));
+    });
+    return names;
+  }
 
  private:
   ChildProcess process_;
   std::mutex mutex_;
-  std::atomic<bool> ended_{false};
+};
+
+/// Which process drives which camera: each camera has one of its own, so that one which is unplugged takes no
+/// other with it. Some of libcamera's pipelines (vimc's, IPU3's) cannot look for cameras while one of theirs
+/// streams: a new process finds none of them. Such cameras share the process that found them all.
+class Processes {
+ public:
+  static Processes& all() {
+    static Processes one;
+    return one;
+  }
+
+  /// Opens the camera by that line. @throws InputError and std::runtime_error as Service
+  std::shared_ptr<Service> open(const std::string& where, const std::string& device,
+                                const std::string& line) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::erase_if(running_, [](const Running& one) { return one.service.expired(); });
+    // Looking for cameras is work: a camera that was not there is looked for again where something has
+    // changed.
+    if (const auto missing = missing_.find(device); missing != missing_.end()) {
+      if (missing->second.where_looked == surroundings()) throw std::runtime_error(missing->second.refusal);
+      missing_.erase(missing);
+    }
+    auto own = std::make_shared<Service>(where);
+    try {
+      own->ask(where, line);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      const std::set<std::string> found = own->cameras(where);
+      own.reset();
+      if (found.count(device) != 0) throw;
+      own = open_in_another(where, line, found);
+      if (!own && media_devices().settled) missing_[device] = {surroundings(), error.what()};
+      if (!own) throw;
+    }
+    running_.push_back({device, own});
+    return own;
+  }
+
+ private:
+  struct Running {
+    std::string device;
+    std::weak_ptr<Service> service;
+  };
+
+  struct Missing {
+    std::string where_looked;
+    std::string refusal;
+  };
+
+  /// What a search depends on.
+  std::string surroundings() const {
+    std::string all;
+    for (const std::string& device : media_devices().present) all += device + "\n";
+    for (const Running& one : running_)
+      if (!one.service.expired()) all += one.device + "\n";
+    return all;
+  }
+
+  std::shared_ptr<Service> open_in_another(const std::string& where, const std::string& line,
+                                           const std::set<std::string>& found) {
+    for (const Running& one : running_) {
+      auto service = one.service.lock();
+      try {
+        if (service) service->ask(where, line);
+        if (service) return service;
+      } catch (const std::exception&) {  // it does not know the camera either
+      }
+    }
+    // A camera that streams and is not found: the search was in vain for its stream's sake. They are let go
+    // once, each time a device has come, and come back by themselves.
+    const bool hampered = std::any_of(running_.begin(), running_.end(),
+                                      [&](const Running& one) { return found.count(one.device) == 0; });
+    const MediaDevices devices = media_devices();
+    const bool come =
+        !std::includes(known_.begin(), known_.end(), devices.present.begin(), devices.present.end());
+    if (!hampered || !devices.settled || !come) return nullptr;
+    known_ = devices.present;
+    for (const Running& one : running_)
+      if (const auto service = one.service.lock()) service->end();
+    auto own = std::make_shared<Service>(where);
+    try {
+      own->ask(where, line);
+      return own;
+    } catch (const std::exception&) {  // not there
+      return nullptr;
+    }
+  }
+
+  struct MediaDevices {
+    std::set<std::string> present;  // another word for one that comes back, though under the same name
+    bool settled = false;  // the newest has been there for a second: so have the nodes that belong to it
+  };
+
+  static MediaDevices media_devices() {
+    MediaDevices devices;
+    std::time_t newest = 0;
+    std::error_code error;
+    for (auto entry = std::filesystem::directory_iterator("/dev", error);
+         !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+      struct stat about {};
+      if (entry->path().filename().string().rfind("media", 0) != 0 ||
+          ::stat(entry->path().c_str(), &about) != 0)
+        continue;
+      newest = std::max(newest, about.st_ctim.tv_sec);
+      devices.present.insert(entry->path().string() + " " + std::to_string(about.st_ctim.tv_sec) + "." +
+                             std::to_string(about.st_ctim.tv_nsec));
+    }
+    devices.settled = std::time(nullptr) > newest + 1;
+    return devices;
+  }
+
+  std::mutex mutex_;
+  std::vector<Running> running_;
+  std::map<std::string, Missing> missing_;
+  std::set<std::string> known_ = media_devices().present;  // from the start, and what cameras were let go for
 };
 
 // The frames as they lie in the shared memory: grey already.
@@ -103,9 +231,8 @@ class LibcameraChild final : public FrameSource {
     stop();
     std::string line = "open " + name_;
     for (const std::string& word : words_of(setup_)) line += "\t" + word;
-    service_ = Service::get(setup_.where);
+    service_ = Processes::all().open(setup_.where, setup_.device, line);
     try {
-      service_->ask(setup_.where, line);
       frames_.start();
     } catch (...) {
       stop();
@@ -139,7 +266,8 @@ std::unique_ptr<FrameSource> make_libcamera_source(const CameraSetup& setup) {
 
 std::vector<LibcameraDescription> list_libcameras() {
   std::vector<LibcameraDescription> cameras;
-  Service::get("libcamera")->ask("libcamera", "list", [&](const std::string& line) {
+  Service service("libcamera");
+  service.ask("libcamera", "list", [&](const std::string& line) {
     const std::size_t space = line.find(' ');
     const std::string word = line.substr(0, space);
     const std::string value = space == std::string::npos ? "" : line.substr(space + 1);

@@ -1,7 +1,6 @@
-// The driver libcamera, in a process of its own (the program omma-libcamera beside this one): libcamera
-// brings two dozen libraries and threads with it, and ends its program in an assertion where a camera is
-// unplugged. The frames come through shared memory; where the process dies the camera is gone, and a new one
-// looks for it.
+// The driver libcamera, in processes of its own (the program omma-libcamera beside this one): libcamera
+// brings two dozen libraries and threads with it, and does not outlive a camera that is unplugged. The frames
+// come through shared memory; where a process dies its camera is gone, and a new one looks for it.
 #pragma once
 
 #include <memory>

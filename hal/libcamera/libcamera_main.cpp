@@ -1,12 +1,12 @@
-// The program omma-libcamera, which libcamera_child.cpp starts, one for all cameras of a program: libcamera
-// does not let two processes share the cameras of one pipeline. A process of its own: what libcamera does
-// when a camera is unplugged ends this one alone. Until its standard input ends it takes there, a line each,
-// with its answer a line as well,
-//   list           "camera ID", "model ...", "format ...", "control ..." lines, then "ready"
+// The program omma-libcamera, which libcamera_child.cpp starts: a process of its own, because libcamera does
+// not outlive a camera that is unplugged. Until its standard input ends it takes there, a line each, with its
+// answer a line as well,
+//   list                         "camera ID", "model ...", "format ...", "control ..." lines, then "ready"
 //   open NAME\tkey=value\t...    frames of a camera into shared memory of that name: "ready", or "refused"
-//   and why close NAME     "ready"
+//   and why close NAME                   "ready"
 #include <atomic>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -27,6 +27,7 @@ using namespace omma;
 
 constexpr int kPollMs = 100;
 constexpr int kPriority = 65;  // that of the threads which take live cameras' frames (fsw/app/camera_drivers)
+constexpr int kLibcameraPriority = 64;  // its thread spins where a device is gone: below who notices that
 
 void say(const std::string& line) {
   std::printf("%s\n", line.c_str());
@@ -52,14 +53,16 @@ class Capture {
 
  private:
   void run() {
+    make_thread_real_time("libcamera frames", kPriority);
     while (!ends_.load()) {
       const Taken taken = source_.take(pixels_.data(), kPollMs);
-      if (taken.status == TakeStatus::kGone) break;
+      // libcamera 0.0.3 does not stop a camera that is gone: its program ends, and with it what spins in
+      // there.
+      if (taken.status == TakeStatus::kGone) std::_Exit(1);
       if (taken.status == TakeStatus::kSilence) continue;
       frames_->write(taken.status == TakeStatus::kFrame ? pixels_.data() : nullptr, taken.time_ns,
                      taken.sequence);
     }
-    frames_.reset();
   }
 
   LibcameraSource source_;
@@ -112,10 +115,16 @@ class Captures {
 
 }  // namespace
 
+// libcamera listens for devices that come and go by this function of libudev's; without it, it looks once,
+// through sysfs. libcamera 0.0.3 ends its program when it hears of one, whosever camera that is.
+extern "C" void* udev_monitor_new_from_netlink(void* /*udev*/, const char* /*name*/) {
+  return nullptr;
+}
+
 int main() {
   // First of all, so that libcamera's threads have it too; without the right to it, it is an ordinary
   // program.
-  make_thread_real_time("libcamera", kPriority);
+  make_thread_real_time("libcamera", kLibcameraPriority);
   Captures captures;
   for (std::string line; std::getline(std::cin, line);) {
     try {

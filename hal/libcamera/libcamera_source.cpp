@@ -7,30 +7,29 @@
 #include <array>
 #include <chrono>
 #include <condition_variable>
+#include <iterator>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
 
 #include "fsw/kernel/input_error.hpp"
 #include "hal/libcamera/libcamera_names.hpp"
+#include "hal/libcamera/streaming_nodes.hpp"
 
 namespace omma {
 namespace {
 
-/// libcamera's one manager of the program; started with the first camera, ended with the last.
-std::shared_ptr<libcamera::CameraManager> manager() {
+/// libcamera's one manager of the program, which looks for cameras once: some of its pipelines (vimc's,
+/// IPU3's) lay the links of their devices anew whenever they are looked for, which fails beside a stream.
+libcamera::CameraManager& manager() {
   static std::mutex mutex;
-  static std::weak_ptr<libcamera::CameraManager> running;
+  static std::unique_ptr<libcamera::CameraManager> running;
   const std::lock_guard<std::mutex> lock(mutex);
-  if (auto already = running.lock()) return already;
-  std::shared_ptr<libcamera::CameraManager> made(new libcamera::CameraManager,
-                                                 [](libcamera::CameraManager* ended) {
-                                                   ended->stop();
-                                                   delete ended;
-                                                 });
+  if (running) return *running;
+  auto made = std::make_unique<libcamera::CameraManager>();
   if (made->start() != 0) throw std::runtime_error("libcamera cannot look for cameras");
-  running = made;
-  return made;
+  running = std::move(made);
+  return *running;
 }
 
 std::string model_of(const libcamera::Camera& camera) {
@@ -44,8 +43,6 @@ std::string size_text(const libcamera::Size& size) {
 }  // namespace
 
 struct LibcameraSource::Stream {
-  // Ended in the opposite order: the manager last.
-  std::shared_ptr<libcamera::CameraManager> cameras;
   std::shared_ptr<libcamera::Camera> camera;
   std::unique_ptr<libcamera::CameraConfiguration> configuration;
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator;
@@ -60,13 +57,13 @@ struct LibcameraSource::Stream {
   bool acquired = false;
   bool started = false;
   bool connected = false;
+  std::vector<int> nodes;  // of the kernel that it streams from
 
   // Finished requests, from libcamera's thread to the camera's.
   std::mutex mutex;
   std::condition_variable arrived;
   std::array<libcamera::Request*, 32> finished{};
   std::size_t finished_count = 0;
-  bool gone = false;
 
   void on_request(libcamera::Request* request) {
     if (request->status() == libcamera::Request::RequestCancelled) return;
@@ -75,18 +72,6 @@ struct LibcameraSource::Stream {
       if (finished_count < finished.size()) finished[finished_count++] = request;
     }
     arrived.notify_one();
-  }
-  void on_disconnect() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      gone = true;
-    }
-    arrived.notify_one();
-  }
-
-  bool is_gone() {
-    const std::lock_guard<std::mutex> lock(mutex);
-    return gone;
   }
   void open(const CameraSetup& setup, const PixelLayout& layout, const GreyShape& shape);
   void configure(const CameraSetup& setup, const PixelLayout& layout, const GreyShape& shape);
@@ -102,8 +87,7 @@ struct LibcameraSource::Stream {
 
 void LibcameraSource::Stream::open(const CameraSetup& setup, const PixelLayout& layout,
                                    const GreyShape& shape) {
-  cameras = manager();
-  const auto all = cameras->cameras();
+  const auto all = manager().cameras();
   const auto found = std::find_if(all.begin(), all.end(), [&](const auto& one) {
     return one->id() == setup.device || model_of(*one) == setup.device;
   });
@@ -115,13 +99,15 @@ void LibcameraSource::Stream::open(const CameraSetup& setup, const PixelLayout& 
   configure(setup, layout, shape);
   map(setup);
   camera->requestCompleted.connect(this, &Stream::on_request);
-  camera->disconnected.connect(this, &Stream::on_disconnect);
   connected = true;
   libcamera::ControlList controls(camera->controls());
   read_libcamera_controls(setup, camera->controls(), controls);
+  const std::vector<int> before = streaming_nodes();
   if (camera->start(&controls) != 0)
     throw InputError(setup.where, 0, "device", "a stream from " + setup.device, "none");
   started = true;
+  const std::vector<int> after = streaming_nodes();
+  std::set_difference(after.begin(), after.end(), before.begin(), before.end(), std::back_inserter(nodes));
   for (const auto& request : requests) camera->queueRequest(request.get());
 }
 
@@ -171,10 +157,7 @@ void LibcameraSource::Stream::map(const CameraSetup& setup) {
 
 LibcameraSource::Stream::~Stream() {
   if (started) camera->stop();
-  if (connected) {
-    camera->requestCompleted.disconnect(this);
-    camera->disconnected.disconnect(this);
-  }
+  if (connected) camera->requestCompleted.disconnect(this);
   for (const Mapping& mapping : mappings) ::munmap(mapping.memory, mapping.size);
   requests.clear();
   allocator.reset();
@@ -185,8 +168,7 @@ LibcameraSource::Stream::~Stream() {
 // Null where none came in time.
 libcamera::Request* LibcameraSource::Stream::wait(int timeout_ms) {
   std::unique_lock<std::mutex> lock(mutex);
-  arrived.wait_for(lock, std::chrono::milliseconds(timeout_ms),
-                   [this] { return finished_count > 0 || gone; });
+  arrived.wait_for(lock, std::chrono::milliseconds(timeout_ms), [this] { return finished_count > 0; });
   if (finished_count == 0) return nullptr;
   libcamera::Request* const oldest = finished.front();
   std::move(finished.begin() + 1, finished.begin() + static_cast<std::ptrdiff_t>(finished_count),
@@ -211,17 +193,13 @@ void LibcameraSource::start() {
 }
 
 void LibcameraSource::stop() noexcept {
-  // libcamera 0.0.3 ends the program where a camera that is gone is stopped: it is left as it is instead.
-  if (stream_ && stream_->is_gone()) {
-    [[maybe_unused]] Stream* const left = stream_.release();
-    return;
-  }
   stream_.reset();
 }
 
 Taken LibcameraSource::take(std::byte* pixels, int timeout_ms) noexcept {
   libcamera::Request* const request = stream_->wait(timeout_ms);
-  if (request == nullptr) return {.status = stream_->is_gone() ? TakeStatus::kGone : TakeStatus::kSilence};
+  if (request == nullptr)
+    return {.status = any_gone(stream_->nodes) ? TakeStatus::kGone : TakeStatus::kSilence};
   const libcamera::FrameBuffer* const buffer = request->buffers().begin()->second;
   const libcamera::FrameMetadata& about = buffer->metadata();
   Taken taken{TakeStatus::kDamaged, static_cast<TimeNs>(about.timestamp), about.sequence};
@@ -241,8 +219,7 @@ Taken LibcameraSource::take(std::byte* pixels, int timeout_ms) noexcept {
 }
 
 std::vector<LibcameraDescription> describe_libcameras() {
-  const auto cameras = manager();
-  const auto all = cameras->cameras();
+  const auto all = manager().cameras();
   std::vector<LibcameraDescription> descriptions;
   for (const auto& camera : all) {
     LibcameraDescription one{camera->id(), model_of(*camera), {}, {}};

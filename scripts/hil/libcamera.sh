@@ -27,22 +27,26 @@ refused "libcamera: a size it does not have" "format: expected RGB3 of 320 x 240
 refused "libcamera: a control it does not have" "controls.zoom: expected one of" "${LC[@]}" --size 318x240 --set zoom=1
 refused "libcamera: a value out of range" "controls.Brightness: expected" "${LC[@]}" --size 318x240 --set Brightness=7
 
-# A camera is unplugged while both are captured.
+# A camera is unplugged twice while both are captured. vimc's cameras cannot be looked for beside a stream of vimc's: they
+# begin in one process and are lost together; after that each has its own, and the second time only one is lost.
 D=/sys/bus/platform/drivers/vimc
 ulimit -c 0
-timeout 300 $OMMA capture --camera "left=libcamera:${IDS[0]}" --camera "right=libcamera:${IDS[1]}" --format RGB3 \
-  --size 318x240 --frames 250 --timeout-ms 1000 > /tmp/said 2>&1 &
+timeout 400 $OMMA capture --camera "left=libcamera:${IDS[0]}" --camera "right=libcamera:${IDS[1]}" --format RGB3 \
+  --size 318x240 --frames 400 --timeout-ms 1000 > /tmp/said 2>&1 &
 CAPTURE=$!
-sleep 2
-echo vimc.0 > $D/unbind
-sleep 2
-echo vimc.0 > $D/bind
+for _ in 1 2; do
+  sleep 2
+  echo vimc.0 > $D/unbind
+  sleep 2
+  echo vimc.0 > $D/bind
+  sleep 2
+done
 wait $CAPTURE
-check $(($? == 1 ? 0 : 1)) "libcamera: unplugged and plugged in again: $(grep '^left: 250' /tmp/said)"
-says 'left: gone or silent' && says 'left: delivers again' && grep -q '^left: 250 .* 1 times gone' /tmp/said
+check $(($? == 1 ? 0 : 1)) "libcamera: unplugged and plugged in again, twice: $(grep '^left: 400' /tmp/said)"
+says 'left: gone or silent' && says 'left: delivers again' && grep -q '^left: 400 .* 2 times gone' /tmp/said
 check $? "named and counted"
-grep -q '^right: 250 frames .* lost: 0 gaps, 0 damaged, 0 without room; [01] times gone' /tmp/said
-check $? "the other camera: $(grep '^right: 250' /tmp/said) ($(grep -m1 -oE '(FATAL|[Aa]ssert).*' /tmp/said | cut -c1-120))"
+grep -q '^right: 400 frames .* lost: 0 gaps, 0 damaged, 0 without room; 1 times gone' /tmp/said
+check $? "the other camera, lost the first time only: $(grep '^right: 400' /tmp/said)"
 ! ls /dev/shm/omma-libcamera-* 2> /dev/null
 check $? "nothing is left in shared memory"
 exit $failed

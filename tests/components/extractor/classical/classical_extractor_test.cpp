@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <memory>
+#include <vector>
 
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
@@ -119,6 +121,38 @@ TEST(ClassicalExtractor, FindsNothingUnderTheMaskNorInAnImageOfAnotherSize) {
   scene.spots.clear();
   extractor.extract(render(scene, random).view(), parameters, nullptr, *list);
   EXPECT_TRUE(list->dots.empty());
+}
+
+// The sums were taken on x86-64; they are those of arm64 too.
+TEST(ClassicalExtractor, GivesTheSameBitsOnEveryMachine) {
+  Image image;
+  image.resize(320, 240, PixelFormat::kGrey8);
+  image.white_level = 255;
+  std::uint32_t state = 1;
+  for (std::byte& pixel : image.pixels) {
+    state = 1664525 * state + 1013904223;
+    pixel = static_cast<std::byte>(30 + (state >> 29) + ((state >> 8) & 7));
+  }
+  for (int v = 20; v < 230; v += 30)
+    for (int u = 20; u < 310; u += 29)
+      for (int y = -2; y <= 2; ++y)
+        for (int x = -2; x <= 2; ++x)
+          image.pixels[static_cast<std::size_t>(320 * (v + y) + u + x)] =
+              static_cast<std::byte>(40 + 180 / (1 + x * x + y * y + (u + v) % 3));
+  std::vector<std::uint64_t> sums;
+  for (const ExtractorAlgorithm algorithm : kAll) {
+    ClassicalExtractor extractor(320, 240, parameters_of(algorithm));
+    const auto list = std::make_unique<DotList>();
+    extractor.extract(image.view(), parameters_of(algorithm), nullptr, *list);
+    EXPECT_GT(list->dots.size(), 20U);
+    std::uint64_t sum = 0;
+    for (const Dot& dot : list->dots)
+      for (const double x : {dot.pixel.x(), dot.pixel.y(), dot.covariance(0, 0), dot.covariance(1, 0)})
+        sum = 31 * sum + std::bit_cast<std::uint64_t>(x);
+    sums.push_back(sum);
+  }
+  EXPECT_EQ(sums,
+            (std::vector<std::uint64_t>{12355013552488651006U, 10068035355268845610U, 3420110683061074176U}));
 }
 
 }  // namespace

@@ -4,10 +4,25 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "components/catalogue/star_catalogue.hpp"
 
 namespace omma::sim {
+
+std::size_t Scenario::bracket_length() const {
+  std::size_t length = 1;
+  for (const Sensor& sensor : sensors)
+    if (!sensor.bracket.empty()) length = std::lcm(length, sensor.bracket.size());
+  return length;
+}
+
+Scenario Scenario::exposed(std::uint64_t frame) const {
+  Scenario other = *this;
+  for (Sensor& sensor : other.sensors)
+    if (!sensor.bracket.empty()) sensor.exposure = sensor.bracket[frame % sensor.bracket.size()];
+  return other;
+}
 
 std::vector<std::uint8_t> faces_of(const TargetBody& body, const std::vector<Face>& faces) {
   constexpr double kAlike = 0.99;  // cosine

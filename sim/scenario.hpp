@@ -101,6 +101,10 @@ struct Scenario {
   std::optional<Orbit> orbit;    ///< none in a laboratory, or where only the stars matter
   EarthLook earth;               ///< seen in orbit only
 
+  /// Frames after which the brackets of all sensors begin anew; 1 without any.
+  std::size_t bracket_length() const;
+  /// The same scenario with the exposures of a frame.
+  Scenario exposed(std::uint64_t frame) const;
   double time_of(std::uint64_t frame) const { return static_cast<double>(frame) / frame_rate; }  ///< [s]
 };
 

@@ -76,6 +76,14 @@ Sensor sensor_of(const TomlTable& table) {
   sensor.bits = static_cast<int>(table.integer("bits", {8, 16}));
   sensor.dark_current = table.number("dark_current_e_s", {0, 1e9});
   sensor.exposure = table.number("exposure_s", {1e-9, 1e4});
+  if (table.has("bracket_s")) {
+    sensor.bracket = table.number_list("bracket_s");
+    if (sensor.bracket.size() > 8)
+      throw table.error("bracket_s", "8 exposures at most", std::to_string(sensor.bracket.size()));
+    for (const double exposure : sensor.bracket)
+      if (!(exposure >= 1e-9 && exposure <= 1e4))
+        throw table.error("bracket_s", "exposures of 1e-9 to 10000 s", std::to_string(exposure));
+  }
   sensor.zero_point = table.number("zero_point_e_s", {1e-6, 1e15});
   sensor.sky = table.number("sky_e_s", {0, 1e9});
   sensor.psf_sigma = table.number("psf_sigma_px", {0.2, 5});

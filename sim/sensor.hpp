@@ -32,6 +32,7 @@ struct Sensor {
   double dark_current = 0;       ///< [electrons/s] a pixel
   double full_well = 20000;      ///< [electrons]
   double exposure = 0.05;        ///< [s]
+  std::vector<double> bracket;   ///< exposures in turn, one a frame [s]; empty: always `exposure`
   double zero_point = 1e5;       ///< electrons per second from a star of V = 0 on the optical axis
   double sky = 0;                ///< diffuse light on the optical axis [electrons/s] a pixel
   double psf_sigma = 0.7;        ///< of a point's picture, before integration over the pixel [px]

@@ -1,4 +1,5 @@
-// Exposure: looks at every fresh frame and asks the cameras for more or less light, one knob a camera.
+// Exposure: looks at every fresh frame and asks the cameras for more or less light, one knob a camera; or for
+// several exposures in turn.
 #pragma once
 
 #include <array>
@@ -56,11 +57,14 @@ class Exposure final : public Component {
   struct Controlled {
     CameraDriver* driver;
     ExposureControl control;
+    StaticVector<TimeNs, kMostBracketed> bracket_ns{};
     bool begun = false;
     bool at_limit = false;
     std::uint32_t refused_in_row = 0;
   };
 
+  void control(std::size_t camera, const CameraSettings& taken, const Tick& tick) noexcept;
+  void bracket(std::size_t camera, const Tick& tick) noexcept;
   void ask(std::size_t camera, const CameraSettings& settings, const Tick& tick) noexcept;
 
   std::vector<Controlled> cameras_;  // as many as drivers, from the start

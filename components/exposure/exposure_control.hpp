@@ -6,9 +6,12 @@
 #include <cstdint>
 
 #include "components/exposure/exposure_statistics.hpp"
+#include "fsw/kernel/static_vector.hpp"
 #include "hal/camera.hpp"
 
 namespace omma {
+
+inline constexpr std::size_t kMostBracketed = 4;
 
 struct ExposureParameters {
   bool automatic = false;
@@ -22,6 +25,8 @@ struct ExposureParameters {
   double most_full = 0.02;    ///< share of full pixels
   int settle = 3;             ///< frames that a change is waited for, where the camera does not tell
   int patience = 100;         ///< frames before light is added again after full pixels made it be taken away
+  /// Exposures in turn, one a frame set, to be fused (components/imaging); not together with `automatic`.
+  StaticVector<TimeNs, kMostBracketed> bracket_ns;
 };
 
 enum class ExposureState : std::uint8_t {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace omma {
 namespace {
@@ -13,26 +14,40 @@ double level(const ImageView& image, int u, int v) {
 
 /// Light of one pixel [grey levels / s].
 double fused(std::span<const ExposedImage> images, const FusionSensor& sensor, int u, int v) {
-  double weighted = 0;
-  double weights = 0;
-  const ExposedImage* shortest = &images.front();
+  FusedLight light;
   for (const ExposedImage& image : images) {
-    if (image.exposure < shortest->exposure) shortest = &image;
     const double grey = level(image.image, u, v);
-    if (grey >= sensor.full * image.image.white_level) continue;
-    const double signal = grey - image.black;
-    // Variance of the rate: photon noise by the signal, read noise, the rounding of the converter.
-    const double electrons = std::max(signal, 0.0) * sensor.gain + sensor.read_noise * sensor.read_noise;
-    const double variance = electrons / (sensor.gain * sensor.gain) + 1.0 / 12;
-    const double weight = image.exposure * image.exposure / variance;
-    weighted += weight * signal / image.exposure;
-    weights += weight;
+    light.add({grey, grey, 1.0 * image.image.white_level, image.black, image.exposure}, sensor);
   }
-  if (weights > 0) return weighted / weights;
-  return (shortest->image.white_level - shortest->black) / shortest->exposure;
+  return light.light();
 }
 
 }  // namespace
+
+void FusedLight::add(const ExposedLevel& seen, const FusionSensor& sensor, double unit,
+                     double share) noexcept {
+  if (seen.brightest >= sensor.full * seen.white) {
+    bound_ = std::max(bound_, static_cast<float>(unit * (seen.white - seen.black) / seen.exposure));
+    return;
+  }
+  const double signal = seen.level - seen.black;
+  // Variance of the rate: photon noise by the signal, read noise, the rounding of the converter.
+  const double electrons = std::max(signal, 0.0) * sensor.gain + sensor.read_noise * sensor.read_noise;
+  const double variance = electrons / (sensor.gain * sensor.gain) + 1.0 / 12;
+  const double weight = share * seen.exposure * seen.exposure / (variance * unit * unit);
+  weighted_ += static_cast<float>(weight * unit * signal / seen.exposure);
+  weights_ += static_cast<float>(weight);
+}
+
+double FusedLight::light() const noexcept {
+  if (weights_ > 0) return static_cast<double>(weighted_) / static_cast<double>(weights_);
+  return bound_ > 0 ? static_cast<double>(bound_) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double FusedLight::sigma() const noexcept {
+  return weights_ > 0 ? 1 / std::sqrt(static_cast<double>(weights_))
+                      : std::numeric_limits<double>::infinity();
+}
 
 bool fuse_exposures(std::span<const ExposedImage> images, const FusionSensor& sensor,
                     std::span<float> out) noexcept {

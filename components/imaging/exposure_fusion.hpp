@@ -1,8 +1,10 @@
 // Exposure fusion: several images of one scene, taken with different exposures, as one of high range: each
 // pixel is the mean of the light the exposures measured, weighted by how well they did; full pixels say
-// nothing. Source: the maximum-likelihood weighting of M. A. Robertson, S. Borman, R. L. Stevenson,
-// "Estimation-theoretic approach to dynamic range enhancement using multiple exposures", J. Electronic
-// Imaging 12 (2003), for a sensor that is linear, with photon and read noise.
+// nothing. In flight the images are those of one frame set after the other, put on the sphere by their
+// attitude; on the ground, of a camera that stood still. Source: the maximum-likelihood weighting of M. A.
+// Robertson, S. Borman, R. L. Stevenson, "Estimation-theoretic approach to dynamic range enhancement using
+// multiple exposures", J. Electronic Imaging 12 (2003), for a sensor that is linear, with photon and read
+// noise.
 #pragma once
 
 #include <span>
@@ -13,7 +15,7 @@ namespace omma {
 
 struct ExposedImage {
   ImageView image;
-  double exposure = 1;  ///< [s]
+  double exposure = 1;  ///< [s], times the gain the camera was set to
   double black = 0;     ///< grey level of no light
 };
 
@@ -21,6 +23,34 @@ struct FusionSensor {
   double gain = 2;        ///< electrons a grey level
   double read_noise = 5;  ///< [electrons]
   double full = 0.98;     ///< share of the white level from which a pixel says nothing
+};
+
+/// What one exposure says of one direction.
+struct ExposedLevel {
+  double level = 0;      ///< grey level, a mean over pixels where the direction covers several
+  double brightest = 0;  ///< grey level of the brightest pixel of that mean
+  double white = 255;
+  double black = 0;
+  double exposure = 1;  ///< [s]
+};
+
+/// The light of one direction, gathered from any number of exposures in any order.
+class FusedLight {
+ public:
+  /// @param unit   light of a grey level a second, in the unit of the result
+  /// @param share  of the weight that counts (the blending of cameras)
+  void add(const ExposedLevel& seen, const FusionSensor& sensor, double unit = 1, double share = 1) noexcept;
+  bool seen() const noexcept { return weights_ > 0 || bound_ > 0; }
+  /// [units a second] above black; where every exposure was full, what the one that holds most would have at
+  /// least; NaN where none was added.
+  double light() const noexcept;
+  /// Standard deviation of `light` by photon and read noise; infinite where every exposure was full.
+  double sigma() const noexcept;
+
+ private:
+  float weighted_ = 0;
+  float weights_ = 0;
+  float bound_ = 0;
 };
 
 /// @param images  of one size; at least one

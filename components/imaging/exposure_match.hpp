@@ -10,10 +10,12 @@
 
 namespace omma {
 
-/// How a camera's grey levels become light: gain · (grey / white level − black).
+/// How a camera's grey levels become light: gain · scale · (grey / white level − black).
 struct CameraLevels {
   double black = 0;  ///< share of the white level
-  double gain = 1;
+  double gain = 1;   ///< from match_exposure
+  double scale = 1;  ///< what is known beforehand: electrons a share, exposure
+  double noise = 0;  ///< of a pixel [share of the white level]
 };
 
 using RigLevels = std::array<CameraLevels, limits::kCameras>;
@@ -22,7 +24,7 @@ using RigLevels = std::array<CameraLevels, limits::kCameras>;
 struct OverlapSums {
   struct Pair {
     std::uint32_t count = 0;
-    double first = 0;   ///< of grey / white level − black of the camera with the smaller index
+    double first = 0;   ///< of scale · (grey / white level − black) of the camera with the smaller index
     double second = 0;  ///< of the other one
   };
   std::array<std::array<Pair, limits::kCameras>, limits::kCameras> pairs{};  ///< [a][b] with a < b

@@ -25,27 +25,32 @@ bool FisheyeView::project(const Eigen::Vector3d& direction, Eigen::Vector2d& pix
   return true;
 }
 
+bool FisheyeView::direction(int row, int column, Eigen::Vector3d& ray) const noexcept {
+  const double centre = 0.5 * (size() - 1);
+  const double x = column - centre;
+  const double y = row - centre;
+  const double radius = std::hypot(x, y);
+  const double angle = radius * angle_per_pixel_;
+  if (angle > 0.5 * settings_.field) return false;
+  const double s = radius > 0 ? std::sin(angle) / radius : 0;
+  ray = {s * x, s * y, std::cos(angle)};
+  return true;
+}
+
 int FisheyeView::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_view,
                              int first_row, int rows, std::span<std::uint8_t> out) const noexcept {
   const int fitting = static_cast<int>(out.size() / static_cast<std::size_t>(size()));
   const int made = std::clamp(std::min(rows, fitting), 0, std::max(size() - first_row, 0));
   const Eigen::Matrix3d rotation = rig_from_view.toRotationMatrix();
   const std::array<int, limits::kCameras> boxes = mosaic.boxes(angle_per_pixel_);
-  const double centre = 0.5 * (size() - 1);
   for (int row = 0; row < made; ++row) {
     std::uint8_t* pixels = out.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(size());
-    const double y = first_row + row - centre;
     for (int column = 0; column < size(); ++column) {
-      const double x = column - centre;
-      const double radius = std::hypot(x, y);
-      const double angle = radius * angle_per_pixel_;
-      if (angle > 0.5 * settings_.field) {
-        pixels[column] = 0;
-        continue;
-      }
-      const double s = radius > 0 ? std::sin(angle) / radius : 0;
-      const Eigen::Vector3d ray(s * x, s * y, std::cos(angle));
-      pixels[column] = companded(mosaic.light(rotation * ray, images, boxes, nullptr), settings_.white);
+      Eigen::Vector3d ray;
+      pixels[column] = 0;
+      if (direction(first_row + row, column, ray))
+        pixels[column] =
+            companded(mosaic.light(rotation * ray, images, boxes, nullptr), settings_.white, mosaic.soft());
     }
   }
   return made;

@@ -23,6 +23,9 @@ class FisheyeView {
   explicit FisheyeView(const FisheyeSettings& settings);
 
   int size() const noexcept { return settings_.size; }
+  double angle_per_pixel() const noexcept { return angle_per_pixel_; }
+  /// Of a pixel, in the view's frame; false outside the field.
+  bool direction(int row, int column, Eigen::Vector3d& ray) const noexcept;
   /// Pixel of a direction in the view's frame (x right, y down, z forward); false outside the field.
   bool project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) const noexcept;
 

@@ -1,53 +1,46 @@
 // Imaging: frames and attitude → pictures of the whole sky (or of a part) as rows for telemetry, one chunk
 // per frame set. A picture takes as many frame sets as it has chunks; each chunk uses the frames and the
 // attitude of its own frame set, so that a picture fixed to the stars fits together while the rig turns. A
-// composite runs through the picture several times before it is sent. Another picture can be asked for at any
-// time.
+// composite runs through the picture several times before it is sent; a fused picture stays at a strip of
+// rows for several exposures; a part of a camera's image at full depth is kept from one frame and sent by and
+// by. Another picture can be asked for at any time.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
 #include "components/extractor/dot_lists.hpp"
+#include "components/imaging/camera_region.hpp"
+#include "components/imaging/chunk_packer.hpp"
 #include "components/imaging/composite.hpp"
+#include "components/imaging/fused_strip.hpp"
+#include "components/imaging/grey_scale.hpp"
 #include "components/imaging/image_chunk.hpp"
-#include "components/imaging/image_coder.hpp"
+#include "components/imaging/imaging_commands.hpp"
 #include "components/imaging/picture.hpp"
+#include "components/imaging/rig_exposures.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
 #include "fsw/kernel/spsc_queue.hpp"
 #include "fsw/services/command.hpp"
+#include "fsw/services/events.hpp"
 #include "fsw/services/parameter_input.hpp"
 
 namespace omma {
 
-inline constexpr CommandDescriptor kStartPicture{.id = 20,
-                                                 .name = "start_picture",
-                                                 .text = "leaves the picture under way and begins a new one",
-                                                 .modes = modes(Mode::kAcquire, Mode::kTrack)};
-
-inline constexpr CommandDescriptor kRequestPicture{
-    .id = 22,
-    .name = "request_picture",
-    .text = "a picture of its own, made once after the one under way: a view looks where it is told",
-    .arguments = {{{.name = "kind",
-                    .type = ValueType::kChoice,
-                    .choices = "panorama_j2000|panorama_rig|view|fisheye_j2000|fisheye_rig"},
-                   {.name = "pan", .unit = "deg", .least = -360, .most = 360},
-                   {.name = "tilt", .unit = "deg", .least = -90, .most = 90},
-                   {.name = "field", .unit = "deg", .least = 0, .most = 360}}},
-    .modes = modes(Mode::kAcquire, Mode::kTrack)};
-
-inline constexpr std::array kImagingCommands{kStartPicture, kRequestPicture};
-
 struct ImagingParameters : PictureSettings {
   ImageComposite composite = ImageComposite::kSingle;
-  int composed = 1;       ///< pictures of a composite, to 1000
-  int composed_rows = 8;  ///< rows a step while a composite is made
-  bool compress = false;  ///< rows without loss (image_coder.hpp): about twice as many in a chunk
-  int period = 0;         ///< least number of frame sets from the start of a picture to the next
+  int composed = 1;          ///< pictures of a composite, to 1000
+  int composed_rows = 8;     ///< rows a step while a composite is made, or a strip is fused
+  bool compress = false;     ///< rows without loss (image_coder.hpp): about twice as many in a chunk
+  int period = 0;            ///< least number of frame sets from the start of a picture to the next
+  bool raw = false;          ///< of kCamera: the camera's own grey levels at full depth, of one instant
+  int fused_frame_sets = 4;  ///< that each strip of a fused picture is made of
+  int fused_bits = 12;       ///< of a pixel of a fused picture, 8 to 16
+  std::array<CameraSensor, limits::kCameras> sensors{};
   RayTableSettings table;
   Footprint footprint = Footprint::kPeak;
 };
@@ -68,18 +61,20 @@ void visit_parameters(ImagingParameters& p, Visit&& visit) {
 
 /// A picture asked for while flying: made once, after the one that is being made. Angles as PictureSettings.
 struct PictureRequest {
-  ImageKind kind = ImageKind::kView;  ///< not kCamera
-  double pan = 0;                     ///< [rad]
-  double tilt = 0;                    ///< [rad]
-  double field = 0;                   ///< of a view or fisheye [rad]; 0: the mission's
+  ImageKind kind = ImageKind::kView;
+  double pan = 0;         ///< [rad]
+  double tilt = 0;        ///< [rad]
+  double field = 0;       ///< of a view or fisheye [rad]; 0: the mission's
+  bool fused = false;     ///< of several exposures; not of kCamera
+  CameraRegion region{};  ///< of kCamera; at full depth
 };
 
 class Imaging final : public Component, public CommandReceiver {
  public:
-  /// Allocates the look-up table and the composite. @throws std::invalid_argument as Mosaic and Picture,
-  /// where one row is longer than a chunk (limits::kImageChunkBytes), and for a composite of less than one
-  /// picture
-  Imaging(const ImagingParameters& parameters, const Rig& rig);
+  /// Allocates the look-up table, the composite, and room for a strip and for a camera's image. @throws
+  /// std::invalid_argument as Mosaic and Picture, where one row is longer than a chunk
+  /// (limits::kImageChunkBytes), and for a composite of less than one picture
+  Imaging(const ImagingParameters& parameters, const Rig& rig, Events& events);
 
   In<Frames> frames;
   In<DotLists> dots;  ///< for the cameras' background levels
@@ -102,30 +97,58 @@ class Imaging final : public Component, public CommandReceiver {
   std::uint32_t refused_requests() const noexcept { return refused_; }
 
  private:
+  /// How a picture is made of frames.
+  enum class Product : std::uint8_t { kGrey, kComposite, kFused, kRaw };
+
   const Picture& picture() const noexcept { return asked_ ? requested_ : standing_; }
-  bool composing() const noexcept { return composite_.has_value() && !asked_; }
+  Product product() const noexcept { return asked_ ? requested_product_ : standing_product_; }
+  bool fits_a_chunk(const Picture& picture, Product product) const noexcept;
+  bool attitude_known() const noexcept;
+  const Eigen::Quaterniond& rig_from_j2000() const noexcept;
   void collect_images() noexcept;
-  void start_picture() noexcept;
-  bool take_request() noexcept;
-  CommandOutcome receive_request(const Command& command) noexcept;
+  bool choose(const Tick& tick) noexcept;
+  bool ready_to_begin(const Tick& tick) noexcept;
+  void start_picture(const Tick& tick) noexcept;
+  void set_levels(bool anew) noexcept;
+  bool take_request(const Tick& tick) noexcept;
+  bool take(const PictureRequest& wanted) noexcept;
+  CommandOutcome receive_look(const Command& command, bool fused) noexcept;
+  CommandOutcome receive_region(const Command& command) noexcept;
   int make_rows(int first_row, int rows) noexcept;
+  void make() noexcept;
   void compose() noexcept;
-  void pack(int rows) noexcept;
+  void fuse() noexcept;
   void send_rows() noexcept;
-  void describe(ImageChunk& out) const noexcept;
+  void send_strip() noexcept;
+  void send_region() noexcept;
+  void sent(int rows) noexcept;
+  void describe() noexcept;
 
   ImagingParameters parameters_;
+  Events& events_;
   Mosaic mosaic_;
   Picture standing_;   // the mission's
   Picture requested_;  // of the newest request
+  Product standing_product_, requested_product_ = Product::kGrey;
   bool asked_ = false;
   SpscQueue<PictureRequest, 4> requests_;
   std::uint32_t refused_ = 0;
   std::optional<Composite> composite_;
   int pass_ = 0;  // of a composite; rows are sent after the last
-  std::optional<ImageCoder> coder_;
+  ChunkPacker packer_;
   std::vector<std::uint8_t> rows_;  // of one step
   std::array<ImageView, limits::kCameras> images_{};
+  RigExposures exposures_;
+  FusedStrip strip_;
+  std::vector<std::uint16_t> strip_levels_;
+  int strip_sent_ = 0;  // rows
+  GreyScale fused_scale_{};
+  bool told_of_nothing_to_fuse_ = false;
+  RegionSnapshot snapshot_;
+  std::uint64_t snapshot_frame_ = 0;
+  TimeNs snapshot_time_ns_ = 0;
+  double reference_exposure_ = 0;  ///< light of the picture under way is of so long [s]; 0: not known
+  std::array<double, limits::kCameras> black_exposure_{};  ///< at which each camera's black was taken
   OverlapSums sums_;
   int level_ = 0;  // of degradation
   int next_row_ = 0;

@@ -9,6 +9,13 @@ namespace {
 
 constexpr int kLargestBox = 15;  // [px] bounds the work of one output pixel
 
+// Mean of the largest of n² pixels of normal noise, in its standard deviations, by n: what the brightest of a
+// box is above its background by chance. Source: H. L. Harter, "Expected values of normal order statistics",
+// Biometrika 48 (1961).
+constexpr std::array<double, kLargestBox + 1> kPeakOfNoise{0,      0,      1.0294, 1.4850, 1.7660, 1.9653,
+                                                           2.1181, 2.2408, 2.3437, 2.4316, 2.5076, 2.5746,
+                                                           2.6345, 2.6882, 2.7371, 2.7819};
+
 template <class Pixel>
 double interpolated(const ImageView& image, double u, double v) {
   const double x = std::clamp(u, 0.0, image.width - 1.0);
@@ -45,10 +52,19 @@ double over_box(const ImageView& image, double u, double v, int box, Footprint f
   return footprint == Footprint::kMean ? sum / count : peak;
 }
 
+bool usable(const ImageView& image, const RayTable& table, int camera) {
+  return !image.empty() && image.width == table.width(camera) && image.height == table.height(camera);
+}
+
 template <class Pixel>
 double grey(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint) {
   return box <= 1 ? interpolated<Pixel>(image, seen.u, seen.v)
                   : over_box<Pixel>(image, seen.u, seen.v, box, footprint);
+}
+
+double grey_of(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint) {
+  return image.format == PixelFormat::kGrey8 ? grey<std::uint8_t>(image, seen, box, footprint)
+                                             : grey<std::uint16_t>(image, seen, box, footprint);
 }
 
 }  // namespace
@@ -73,14 +89,13 @@ double Mosaic::light(const Eigen::Vector3d& direction, RigImages images,
   for (int camera = 0; camera < table_.cameras(); ++camera) {
     if (!(seen[camera].weight > 0) || static_cast<std::size_t>(camera) >= images.size()) continue;
     const ImageView& image = images[camera];
-    if (image.empty() || image.width != table_.width(camera) || image.height != table_.height(camera))
-      continue;
-    const double level = image.format == PixelFormat::kGrey8
-                             ? grey<std::uint8_t>(image, seen[camera], boxes[camera], footprint_)
-                             : grey<std::uint16_t>(image, seen[camera], boxes[camera], footprint_);
-    const double share = level / image.white_level;
-    const double value = share - levels_[camera].black;
-    weighted += seen[camera].weight * levels_[camera].gain * value;
+    if (!usable(image, table_, camera)) continue;
+    const CameraLevels& levels = levels_[camera];
+    const double share = grey_of(image, seen[camera], boxes[camera], footprint_) / image.white_level;
+    const double by_chance =
+        footprint_ == Footprint::kPeak ? kPeakOfNoise[static_cast<std::size_t>(boxes[camera])] : 0;
+    const double value = levels.scale * (share - levels.black - by_chance * levels.noise);
+    weighted += seen[camera].weight * levels.gain * value;
     weights += seen[camera].weight;
     if (sums == nullptr || share >= 1) continue;  // a full pixel says nothing about its gain
     if (last >= 0) sums->add(last, last_value, camera, value);
@@ -90,9 +105,32 @@ double Mosaic::light(const Eigen::Vector3d& direction, RigImages images,
   return weights > 0 ? weighted / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::uint8_t companded(double light, double white) noexcept {
+void Mosaic::gather(const Eigen::Vector3d& direction, RigImages images, const RigExposed& exposed,
+                    const std::array<int, limits::kCameras>& boxes, FusedLight& to) const noexcept {
+  std::array<SeenPixel, limits::kCameras> seen;
+  table_.look(direction, seen);
+  for (int camera = 0; camera < table_.cameras(); ++camera) {
+    const CameraExposed& how = exposed[camera];
+    if (!(seen[camera].weight > 0) || !(how.exposure > 0) ||
+        static_cast<std::size_t>(camera) >= images.size())
+      continue;
+    const ImageView& image = images[camera];
+    if (!usable(image, table_, camera)) continue;
+    // One full pixel among those that are averaged hides how bright it was: two at least, where it is
+    // interpolated.
+    const int box = boxes[camera];
+    to.add({.level = grey_of(image, seen[camera], box, Footprint::kMean),
+            .brightest = grey_of(image, seen[camera], std::max(box, 2), Footprint::kPeak),
+            .white = 1.0 * image.white_level,
+            .black = how.black,
+            .exposure = how.exposure},
+           how.sensor, how.unit * levels_[camera].gain, seen[camera].weight);
+  }
+}
+
+std::uint8_t companded(double light, double white, double soft) noexcept {
   if (std::isnan(light)) return 0;
-  const double share = std::clamp(light / white, 0.0, 1.0);
+  const double share = std::clamp((light + soft) / (white + soft), 0.0, 1.0);
   return static_cast<std::uint8_t>(1 + std::lround(254 * std::sqrt(share)));
 }
 

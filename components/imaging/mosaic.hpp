@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "components/imaging/exposure_fusion.hpp"
 #include "components/imaging/exposure_match.hpp"
 #include "components/imaging/ray_table.hpp"
 #include "hal/image.hpp"
@@ -21,6 +22,16 @@ enum class Footprint : std::uint8_t {
 /// camera's lens, is left out. Frames are taken to be of one instant.
 using RigImages = std::span<const ImageView>;
 
+/// How a camera's frame was exposed, for fusion.
+struct CameraExposed {
+  double exposure = 0;  ///< [s], times the gain; 0: not known, the frame is left out
+  double black = 0;     ///< grey level of no light
+  double unit = 1;      ///< light of a grey level a second
+  FusionSensor sensor;
+};
+
+using RigExposed = std::array<CameraExposed, limits::kCameras>;
+
 class Mosaic {
  public:
   /// Allocates the table. @throws std::invalid_argument as RayTable
@@ -31,6 +42,9 @@ class Mosaic {
   Footprint footprint() const noexcept { return footprint_; }
   RigLevels& levels() noexcept { return levels_; }
   const RigLevels& levels() const noexcept { return levels_; }
+  /// Light below black that the grey scale still shows [share of white], so that noise is not cut off.
+  void set_soft(double soft) noexcept { soft_ = soft; }
+  double soft() const noexcept { return soft_; }
 
   /// Side of the square of image pixels that an output pixel of `angle` [rad] covers, per camera.
   std::array<int, limits::kCameras> boxes(double angle) const noexcept;
@@ -41,16 +55,22 @@ class Mosaic {
   /// @return light as a share of the white level (may be negative by noise); NaN where no camera sees it
   double light(const Eigen::Vector3d& direction, RigImages images,
                const std::array<int, limits::kCameras>& boxes, OverlapSums* sums) const noexcept;
+  /// Adds what every camera's frame says of a direction: the mean over the pixels that it covers, in
+  /// whichever way the footprint is taken otherwise.
+  void gather(const Eigen::Vector3d& direction, RigImages images, const RigExposed& exposed,
+              const std::array<int, limits::kCameras>& boxes, FusedLight& to) const noexcept;
 
  private:
   RayTable table_;
   Footprint footprint_;
   RigLevels levels_;
+  double soft_ = 0;
 };
 
-/// The 8-bit grey of a light: 0 not seen; 1 … 255 the square root of light / white (Poisson noise becomes the
-/// same at every level, so that 8 bits lose the least).
+/// The 8-bit grey of a light: 0 not seen; 1 … 255 the square root of (light + soft) / (white + soft) (Poisson
+/// noise becomes the same at every level, so that 8 bits lose the least; about 0, where noise is that of
+/// reading, it stays whole).
 /// @param white  light shown as 255
-std::uint8_t companded(double light, double white) noexcept;
+std::uint8_t companded(double light, double white, double soft = 0) noexcept;
 
 }  // namespace omma

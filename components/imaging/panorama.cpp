@@ -33,6 +33,12 @@ Panorama::Panorama(const PanoramaSettings& settings) : width_(settings.width), w
   }
 }
 
+Eigen::Vector3d Panorama::direction(int row, int column) const noexcept {
+  const double declination = pi * (0.5 - (row + 0.5) / height());
+  const Eigen::Vector2d& meridian = meridians_[static_cast<std::size_t>(column)];
+  return {std::cos(declination) * meridian.x(), std::cos(declination) * meridian.y(), std::sin(declination)};
+}
+
 int Panorama::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_sky,
                           int first_row, int rows, std::span<std::uint8_t> out,
                           OverlapSums* sums) const noexcept {
@@ -48,7 +54,7 @@ int Panorama::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Q
     for (int column = 0; column < width_; ++column) {
       const Eigen::Vector2d& meridian = meridians_[column];
       const Eigen::Vector3d sky(cosine * meridian.x(), cosine * meridian.y(), sine);
-      pixels[column] = companded(mosaic.light(rotation * sky, images, boxes, sums), white_);
+      pixels[column] = companded(mosaic.light(rotation * sky, images, boxes, sums), white_, mosaic.soft());
     }
   }
   return made;

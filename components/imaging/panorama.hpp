@@ -32,6 +32,9 @@ class Panorama {
   int width() const noexcept { return width_; }
   int height() const noexcept { return width_ / 2; }
 
+  /// Of a pixel, in the frame the picture is fixed to.
+  Eigen::Vector3d direction(int row, int column) const noexcept;
+
   /// Makes some rows. Time is bounded by rows · width · cameras; nothing is allocated.
   /// @param rig_from_sky  rig_from_j2000 for a picture fixed to the stars, the identity for one fixed to the
   /// rig

@@ -14,9 +14,7 @@ Picture::Picture(const PictureSettings& settings, const Mosaic& mosaic)
   const RayTable& table = mosaic.table();
   if (region.camera < 0 || region.camera >= table.cameras())
     throw std::invalid_argument("picture: there is no such camera in the rig");
-  if (region.left < 0 || region.top < 0 || region.width <= 0 || region.height <= 0 ||
-      region.left + region.width > table.width(region.camera) ||
-      region.top + region.height > table.height(region.camera))
+  if (!region.lies_in(table.width(region.camera), table.height(region.camera)))
     throw std::invalid_argument("picture: the region is no part of the camera's image");
 }
 
@@ -105,11 +103,52 @@ bool Picture::change(ImageKind kind, double pan, double tilt, double field) noex
   return true;
 }
 
+void Picture::change(const CameraRegion& region) noexcept {
+  settings_.kind = ImageKind::kCamera;
+  settings_.region = region;
+}
+
+bool Picture::direction(int row, int column, Eigen::Vector3d& ray) const noexcept {
+  switch (settings_.kind) {
+    case ImageKind::kView:
+    case ImageKind::kViewRig:
+      ray = view_.direction(row, column);
+      return true;
+    case ImageKind::kFisheyeJ2000:
+    case ImageKind::kFisheyeRig:
+      return fisheye_.direction(row, column, ray);
+    case ImageKind::kCamera:
+      return false;
+    default:
+      ray = panorama_.direction(row, column);
+      return true;
+  }
+}
+
+Eigen::Quaterniond Picture::rig_from_picture(const Eigen::Quaterniond& rig_from_j2000) const noexcept {
+  const Eigen::Quaterniond rig_from_base = fixed_to_sky() ? rig_from_j2000 : Eigen::Quaterniond::Identity();
+  const bool looks_ahead =
+      settings_.kind != ImageKind::kPanoramaJ2000 && settings_.kind != ImageKind::kPanoramaRig;
+  return looks_ahead ? rig_from_base * pan_tilt(settings_.pan, settings_.tilt) : rig_from_base;
+}
+
+double Picture::pixel_angle() const noexcept {
+  switch (settings_.kind) {
+    case ImageKind::kView:
+    case ImageKind::kViewRig:
+      return 1 / view_.focal_length();
+    case ImageKind::kFisheyeJ2000:
+    case ImageKind::kFisheyeRig:
+      return fisheye_.angle_per_pixel();
+    default:
+      return 2 * std::numbers::pi / panorama_.width();
+  }
+}
+
 int Picture::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_j2000,
                          int first_row, int rows, std::span<std::uint8_t> out,
                          OverlapSums* sums) const noexcept {
-  const Eigen::Quaterniond rig_from_sky = fixed_to_sky() ? rig_from_j2000 : Eigen::Quaterniond::Identity();
-  const Eigen::Quaterniond rig_from_view = rig_from_sky * pan_tilt(settings_.pan, settings_.tilt);
+  const Eigen::Quaterniond rig_from_view = rig_from_picture(rig_from_j2000);
   switch (settings_.kind) {
     case ImageKind::kView:
     case ImageKind::kViewRig:
@@ -120,7 +159,7 @@ int Picture::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Qu
     case ImageKind::kCamera:
       return copy_rows(mosaic, images, first_row, rows, out);
     default:
-      return panorama_.render_rows(mosaic, images, rig_from_sky, first_row, rows, out, sums);
+      return panorama_.render_rows(mosaic, images, rig_from_view, first_row, rows, out, sums);
   }
 }
 

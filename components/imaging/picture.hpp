@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "components/imaging/camera_region.hpp"
 #include "components/imaging/fisheye_view.hpp"
 #include "components/imaging/image_chunk.hpp"
 #include "components/imaging/panorama.hpp"
@@ -13,19 +14,10 @@
 
 namespace omma {
 
-/// A part of one camera's image.
-struct CameraRegion {
-  int camera = 0;  ///< index in the rig
-  int left = 0;    ///< [px]
-  int top = 0;
-  int width = 320;
-  int height = 240;
-};
-
 struct PictureSettings {
   ImageKind kind = ImageKind::kPanoramaJ2000;
   PanoramaSettings panorama;  ///< for the panoramas
-  ViewSettings view;          ///< for kView
+  ViewSettings view;          ///< for the views
   FisheyeSettings fisheye;    ///< for the fisheyes
   CameraRegion region;        ///< for kCamera
   double pan = 0;   ///< of view and fisheye: right ascension, or azimuth about the rig's +z from +x [rad]
@@ -48,6 +40,15 @@ class Picture {
   /// @param field  of a view (below π) or a fisheye (to 2π) [rad]; of no meaning for panoramas
   /// @return false (and nothing changed) where it cannot be
   bool change(ImageKind kind, double pan, double tilt, double field) noexcept;
+  /// Another part of a camera's image; the caller knows that there is one.
+  void change(const CameraRegion& region) noexcept;
+
+  /// Of a pixel, unit vector in the picture's own frame; false where it shows no direction. Not of kCamera.
+  bool direction(int row, int column, Eigen::Vector3d& ray) const noexcept;
+  /// Turns `direction` into the rig. @param rig_from_j2000  not used where the picture is fixed to the rig
+  Eigen::Quaterniond rig_from_picture(const Eigen::Quaterniond& rig_from_j2000) const noexcept;
+  /// Angle that one pixel covers in the middle [rad]. Not of kCamera.
+  double pixel_angle() const noexcept;
 
   /// As Panorama::render_rows. @param rig_from_j2000  not used where the picture is fixed to the rig
   int render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_j2000,

@@ -34,6 +34,12 @@ bool View::project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) con
   return true;
 }
 
+Eigen::Vector3d View::direction(int row, int column) const noexcept {
+  return Eigen::Vector3d((column - 0.5 * (width() - 1)) / focal_length_,
+                         (row - 0.5 * (height() - 1)) / focal_length_, 1)
+      .normalized();
+}
+
 int View::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quaterniond& rig_from_view,
                       int first_row, int rows, std::span<std::uint8_t> out) const noexcept {
   const int fitting = static_cast<int>(out.size() / static_cast<std::size_t>(width()));
@@ -42,11 +48,9 @@ int View::render_rows(const Mosaic& mosaic, RigImages images, const Eigen::Quate
   const std::array<int, limits::kCameras> boxes = mosaic.boxes(1 / focal_length_);
   for (int row = 0; row < made; ++row) {
     std::uint8_t* pixels = out.data() + static_cast<std::size_t>(row) * width();
-    const double y = (first_row + row - 0.5 * (height() - 1)) / focal_length_;
     for (int column = 0; column < width(); ++column) {
-      const double x = (column - 0.5 * (width() - 1)) / focal_length_;
-      const Eigen::Vector3d ray = Eigen::Vector3d(x, y, 1).normalized();
-      pixels[column] = companded(mosaic.light(rotation * ray, images, boxes, nullptr), settings_.white);
+      const Eigen::Vector3d ray = rotation * direction(first_row + row, column);
+      pixels[column] = companded(mosaic.light(ray, images, boxes, nullptr), settings_.white, mosaic.soft());
     }
   }
   return made;

@@ -32,6 +32,8 @@ class View {
   int height() const noexcept { return settings_.height; }
   /// [px] of the virtual pinhole.
   double focal_length() const noexcept { return focal_length_; }
+  /// Of a pixel, view frame.
+  Eigen::Vector3d direction(int row, int column) const noexcept;
   /// Pixel of a direction in the view frame; false behind the view.
   bool project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) const noexcept;
 

@@ -138,7 +138,7 @@ void read_extractors(const TomlTable& camera, ExtractorCamera& dots) {
                        std::to_string(dots.also.size()));
 }
 
-void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots) {
+void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots, double& read_noise_e) {
   const auto found = camera.table_if("sensor");
   if (!found) return;
   const TomlTable& table = *found;
@@ -159,6 +159,7 @@ void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dot
   }
   dots.parameters.relative_noise =
       read_float(table, "relative_noise", {0, 1}, dots.parameters.relative_noise);
+  read_noise_e = table.number("read_noise_e", {0.1, 1e4}, read_noise_e);
   dots.parameters.fill_factor = read_float(table, "fill_factor", {0.01, 1}, dots.parameters.fill_factor);
   if (table.has("relative_illumination")) dots.illumination = read_illumination(table, lens);
   table.refuse_unknown_keys();
@@ -191,12 +192,28 @@ void read_mask(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots)
   table.refuse_unknown_keys();
 }
 
+// Several exposures in turn.
+void read_bracket(const TomlTable& table, ExposureParameters& p) {
+  if (!table.has("bracket_ms")) return;
+  if (p.automatic)
+    throw table.error("bracket_ms", "automatic exposure or a bracket, not both", "automatic = true as well");
+  const std::vector<double> exposures = table.number_list("bracket_ms");
+  if (exposures.size() < 2 || exposures.size() > kMostBracketed)
+    throw table.error("bracket_ms", "2 to " + std::to_string(kMostBracketed) + " exposures",
+                      std::to_string(exposures.size()));
+  for (const double exposure : exposures) {
+    if (!(exposure >= 0.001 && exposure <= 60000))
+      throw table.error("bracket_ms", "exposures from 0.001 to 60000 ms", std::to_string(exposure));
+    p.bracket_ns.push_back(static_cast<TimeNs>(std::llround(1e6 * exposure)));
+  }
+}
+
 ExposureParameters read_exposure(const TomlTable& camera) {
   ExposureParameters p;
   const auto found = camera.table_if("exposure");
   if (!found) return p;
   const TomlTable& table = *found;
-  p.automatic = table.flag("automatic", true);
+  p.automatic = table.flag("automatic", !table.has("bracket_ms"));
   const auto milliseconds = [&](const char* key, TimeNs otherwise) {
     return static_cast<TimeNs>(
         std::llround(1e6 * table.number(key, {0.001, 60000}, 1e-6 * static_cast<double>(otherwise))));
@@ -216,6 +233,7 @@ ExposureParameters read_exposure(const TomlTable& camera) {
   p.most_full = table.number("most_full", {0, 1}, p.most_full);
   p.settle = static_cast<int>(table.integer("settle_frames", {1, 1000}, p.settle));
   p.patience = static_cast<int>(table.integer("patience_frames", {1, 1000000}, p.patience));
+  read_bracket(table, p);
   table.refuse_unknown_keys();
   return p;
 }

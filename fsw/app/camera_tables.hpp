@@ -14,11 +14,12 @@ namespace omma {
 
 /// extractor: what is looked for and how; also_extractor: tables for other kinds of things; into `dots`.
 void read_extractors(const TomlTable& camera, ExtractorCamera& dots);
-/// sensor: black frame, response, fill factor, illumination; into `dots`, whose size and parameters are set.
-void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots);
+/// sensor: black frame, response, fill factor, illumination; into `dots`, whose size and parameters are set;
+/// and the read noise [electrons].
+void read_sensor(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots, double& read_noise_e);
 /// mask: lens circle, picture, boxes, polygons, glare; into `dots`, whose size is set.
 void read_mask(const TomlTable& camera, const Lens& lens, ExtractorCamera& dots);
-/// exposure: automatic, with its limits.
+/// exposure: automatic, with its limits, or a bracket.
 ExposureParameters read_exposure(const TomlTable& camera);
 
 }  // namespace omma

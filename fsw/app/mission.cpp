@@ -93,7 +93,7 @@ std::vector<CameraMission> read_cameras(const TomlTable& root, const Rig& rig, d
     camera.dots.width = lens.width();
     camera.dots.height = lens.height();
     read_extractors(table, camera.dots);
-    read_sensor(table, lens, camera.dots);
+    read_sensor(table, lens, camera.dots, camera.read_noise_e);
     read_mask(table, lens, camera.dots);
     camera.exposure = read_exposure(table);
     table.refuse_unknown_keys();
@@ -260,6 +260,13 @@ Mission read_mission(const std::filesystem::path& file) {
   mission.attitude.axes = mission.pose.axes = camera_axes(mission.rig);
   mission.imaging.period = 10;
   if (const auto imaging = root.table_if("imaging")) mission.imaging = read_imaging(*imaging, mission.rig);
+  for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
+    const CameraMission& camera = mission.cameras[c];
+    mission.imaging.sensors[c] = {.electrons = static_cast<double>(camera.dots.parameters.gain),
+                                  .black_level = static_cast<double>(camera.dots.parameters.black_level),
+                                  .read_noise = camera.read_noise_e,
+                                  .linear = camera.dots.sensor.response.empty()};
+  }
   if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);
   mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));
   root.refuse_unknown_keys();

@@ -31,6 +31,7 @@ struct CameraMission {
   int bits = 8;        ///< of a pixel of a recorded camera: the white level is 2^bits − 1
   CameraSetup setup;   ///< of a live camera
   ExtractorCamera dots;
+  double read_noise_e = 5;  ///< of a pixel [electrons]; for weights where exposures are fused
   ExposureParameters exposure;
 };
 

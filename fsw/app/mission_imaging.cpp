@@ -52,15 +52,20 @@ CameraRegion read_region(const TomlTable& table, const Rig& rig) {
 
 ImagingParameters read_imaging(const TomlTable& table, const Rig& rig) {
   constexpr double kDegree = std::numbers::pi / 180;
-  constexpr std::array<std::string_view, 6> kKinds{"panorama_j2000", "panorama_rig", "view",
-                                                   "fisheye_j2000",  "fisheye_rig",  "camera"};
-  constexpr std::array<std::string_view, 4> kComposites{"single", "mean", "darkest", "brightest"};
+  constexpr std::array<std::string_view, 7> kKinds{
+      "panorama_j2000", "panorama_rig", "view", "fisheye_j2000", "fisheye_rig", "camera", "view_rig"};
+  constexpr std::array<std::string_view, 5> kComposites{"single", "mean", "darkest", "brightest", "fused"};
   ImagingParameters p;
   p.kind = static_cast<ImageKind>(one_of(table, "kind", kKinds));
   p.composite = static_cast<ImageComposite>(one_of(table, "composite", kComposites));
-  const bool single = p.composite == ImageComposite::kSingle;
-  const Range many = single ? Range{1, 1} : Range{2, 1000};
-  p.composed = static_cast<int>(table.integer("composed", many, single ? 1 : 10));
+  const bool fused = p.composite == ImageComposite::kFused;
+  const bool once = p.composite == ImageComposite::kSingle || fused;
+  const Range many = once ? Range{1, 1} : Range{2, 1000};
+  p.composed = static_cast<int>(table.integer("composed", many, once ? 1 : 10));
+  p.fused_frame_sets = static_cast<int>(table.integer("fused_frame_sets", {2, 64}, p.fused_frame_sets));
+  p.fused_bits = static_cast<int>(table.integer("fused_bits", {8, 16}, p.fused_bits));
+  if (fused && p.kind == ImageKind::kCamera)
+    throw table.error("composite", "no \"fused\" where kind is \"camera\": a picture on the sphere", "it");
   p.composed_rows = static_cast<int>(table.integer("composed_rows", {1, 4096}, p.composed_rows));
   p.compress = table.flag("compress", false);
   p.panorama.width = static_cast<int>(table.integer("panorama_width", {64, 4096}, p.panorama.width));
@@ -74,7 +79,12 @@ ImagingParameters read_imaging(const TomlTable& table, const Rig& rig) {
   const double white = table.number("white", {1e-4, 1}, p.panorama.white);
   p.panorama.white = p.view.white = p.fisheye.white = white;
   p.period = static_cast<int>(table.integer("period", {1, 100000}, 10));
-  if (p.kind == ImageKind::kCamera) p.region = read_region(table, rig);
+  if (p.kind == ImageKind::kCamera) {
+    p.region = read_region(table, rig);
+    p.raw = table.flag("raw", false);
+    if (p.raw && p.composite != ImageComposite::kSingle)
+      throw table.error("raw", "false where pictures are composed", "true");
+  }
   table.refuse_unknown_keys();
   return p;
 }

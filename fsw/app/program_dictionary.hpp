@@ -23,9 +23,9 @@ namespace omma {
 
 /// Every event this program can raise.
 inline constexpr auto kEvents = joined(
-    kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, kExposureEvents, telemetry::kLatencyEvents,
-    kMotionEvents, kSyncTriggerEvents, kTriggerWatchEvents, kParameterEvents, kModeEvents, kFaultEvents,
-    kLimitEvents, kStoreEvents, kRecordEvents, kLifelineEvents);
+    kScheduleEvents, kHealthEvents, kTraceEvents, kCameraEvents, kExposureEvents, kImagingEvents,
+    telemetry::kLatencyEvents, kMotionEvents, kSyncTriggerEvents, kTriggerWatchEvents, kParameterEvents,
+    kModeEvents, kFaultEvents, kLimitEvents, kStoreEvents, kRecordEvents, kLifelineEvents);
 static_assert(are_unique(kEvents) && are_well_formed(kEvents), "two events share an id or a name");
 
 /// Every command it takes.

@@ -109,7 +109,7 @@ Topology::Topology(const Mission& mission, const RunOptions& options)
       surveillance(mission_.surveillance, mission_.rig, catalogue_, mission_.tracker.floor_px),
       approach(approach_parameters(mission_), mission_.rig, catalogue_, mission_.bodies,
                mission_.tracker.floor_px),
-      imaging(mission_.imaging, mission_.rig),
+      imaging(mission_.imaging, mission_.rig, events),
       limit_watch(kLimits, events),
       mode_keeper(kTransitions, events),
       fault_watch(kFaultRules, events, mode_keeper, commander),

@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/images/light_file.hpp"
 #include "ground/recording.hpp"
 #include "ground/report/chunk_pictures.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -52,13 +54,13 @@ GreyPicture with_gaps_hatched(const ChunkPicture& picture) {
 
 std::string file_name(std::uint32_t number, const ChunkPicture& picture) {
   std::array<char, 80> name{};
-  std::snprintf(name.data(), name.size(), "%05u_%s%s%s.png", number, name_of(picture.kind),
+  std::snprintf(name.data(), name.size(), "%05u_%s%s%s", number, name_of(picture.kind),
                 picture.composite == omma_COMPOSITE_SINGLE ? "" : "_",
                 picture.composite == omma_COMPOSITE_SINGLE ? "" : name_of(picture.composite));
   return name.data();
 }
 
-void write(const std::filesystem::path& file, const ChunkPicture& picture) {
+void write_look(const std::filesystem::path& file, const ChunkPicture& picture) {
   const GreyPicture shown = with_gaps_hatched(picture);
   ImageView view;
   view.data = reinterpret_cast<const std::byte*>(shown.pixels.data());
@@ -66,6 +68,46 @@ void write(const std::filesystem::path& file, const ChunkPicture& picture) {
   view.height = shown.height;
   view.stride = shown.width;
   write_png(file, view);
+}
+
+/// The levels themselves, at full depth.
+void write_levels(const std::filesystem::path& file, const ChunkPicture& picture) {
+  ImageView view;
+  view.data = reinterpret_cast<const std::byte*>(picture.levels.data());
+  view.width = picture.picture.width;
+  view.height = picture.picture.height;
+  view.stride = std::ptrdiff_t{2} * picture.picture.width;
+  view.format = PixelFormat::kGrey16;
+  view.white_level = static_cast<std::uint16_t>(picture.scale.largest());
+  write_png(file, view);
+}
+
+/// @return what was written: the picture to look at, or a camera's own grey levels; of a fused one its light
+/// as well.
+std::string write(const std::filesystem::path& folder, std::uint32_t number, const ChunkPicture& picture) {
+  const std::string name = file_name(number, picture);
+  if (picture.scale.scale == ImageScale::kLinear && picture.scale.bits > 8) {
+    write_levels(folder / (name + ".png"), picture);
+    return name + ".png";
+  }
+  write_look(folder / (name + ".png"), picture);
+  if (picture.composite != omma_COMPOSITE_FUSED) return name + ".png";
+  write_light(folder / (name + ".fits"), picture);
+  return name + ".png .fits";
+}
+
+std::string where(const ChunkPicture& picture) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  std::array<char, 80> text{};
+  if (picture.kind == omma_IMAGE_CAMERA)
+    std::snprintf(text.data(), text.size(), "camera %d from %d, %d", picture.camera, picture.left,
+                  picture.top);
+  else if (picture.kind == omma_IMAGE_PANORAMA_J2000 || picture.kind == omma_IMAGE_PANORAMA_RIG)
+    std::snprintf(text.data(), text.size(), "the whole sky");
+  else
+    std::snprintf(text.data(), text.size(), "%.2f %+.2f, %.2f deg", picture.pan / kDegree,
+                  picture.tilt / kDegree, picture.field / kDegree);
+  return text.data();
 }
 
 int images(const Arguments& arguments) {
@@ -78,19 +120,20 @@ int images(const Arguments& arguments) {
   std::error_code error;
   std::filesystem::create_directories(arguments.out, error);
   std::printf(
-      "image  kind            of          size px    frame sets      rows lost   bytes / pixel  file\n");
+      "image  kind            of          size px      bits  frame sets      rows lost   bytes / pixel  "
+      "looks at                  file\n");
   bool whole = true;
   for (const auto& [number, picture] : pictures.pictures()) {
     const int lost = picture.picture.height - picture.rows_there();
-    const std::string name = file_name(number, picture);
-    write(std::filesystem::path(arguments.out) / name, picture);
+    const std::string name = write(arguments.out, number, picture);
     whole = whole && lost == 0;
     const double pixels = static_cast<double>(picture.rows_there()) * picture.picture.width;
-    std::printf("%5u  %-14s  %-9s%3d  %5d x %-5d %6llu to %-6llu  %5d       %6.3f         %s\n", number,
-                name_of(picture.kind), name_of(picture.composite), picture.composed, picture.picture.width,
-                picture.picture.height, static_cast<unsigned long long>(picture.first_frame),
+    std::printf("%5u  %-14s  %-9s%3d  %5d x %-5d  %4d %6llu to %-6llu  %5d       %6.3f         %-24s  %s\n",
+                number, name_of(picture.kind), name_of(picture.composite), picture.composed,
+                picture.picture.width, picture.picture.height, picture.scale.bits,
+                static_cast<unsigned long long>(picture.first_frame),
                 static_cast<unsigned long long>(picture.last_frame), lost,
-                static_cast<double>(picture.bytes) / pixels, name.c_str());
+                static_cast<double>(picture.bytes) / pixels, where(picture).c_str(), name.c_str());
   }
   if (pictures.refused() > 0)
     std::fprintf(stderr, "omma: %llu chunks contradict themselves or their picture and were left out\n",

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "components/imaging/grey_scale.hpp"
 #include "components/telemetry/topics.hpp"
 #include "ground/draw/canvas.hpp"
 
@@ -17,7 +18,13 @@ struct ChunkPicture {
   int camera = 0;  ///< of a part of a camera's image
   int left = 0;    ///< [px]
   int top = 0;
-  GreyPicture picture;            ///< rows that did not arrive are 0
+  double pan = 0;  ///< of views and fisheyes: where the middle looks [rad]
+  double tilt = 0;
+  double field = 0;  ///< from the left border to the right [rad]; 0: of a camera's own image
+  GreyScale scale;   ///< what the levels stand for
+  /// Rows that did not arrive are 0.
+  std::vector<std::uint16_t> levels;
+  GreyPicture picture;            ///< the same, to be looked at: their upper 8 bits
   std::vector<bool> rows;         ///< which arrived
   std::uint64_t first_frame = 0;  ///< frame sets its rows were taken from
   std::uint64_t last_frame = 0;
@@ -42,7 +49,8 @@ class ChunkPictures {
   bool decode(const omma_ImageChunk& chunk);
 
   std::map<std::uint32_t, ChunkPicture> pictures_;
-  std::vector<std::uint8_t> rows_;  // of the chunk at hand
+  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint16_t> rows_;  // levels of the chunk at hand
   std::uint64_t refused_ = 0;
 };
 

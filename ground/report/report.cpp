@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <numbers>
 
 #include "components/telemetry/topics.hpp"
 #include "fsw/kernel/input_error.hpp"
+#include "ground/format.hpp"
 #include "ground/report/report_page.hpp"
 #include "ground/report/report_pictures.hpp"
 
@@ -59,16 +62,32 @@ std::uint64_t frame_to_show(const FlightLog& log) {
   return best;
 }
 
+/// Of a whole panorama, as a share of the sphere.
+double share_not_seen(const ChunkPicture& panorama) {
+  double dark = 0;
+  double all = 0;
+  for (int v = 0; v < panorama.picture.height; ++v) {
+    const double weight = std::sin(std::numbers::pi * (v + 0.5) / panorama.picture.height);
+    for (int u = 0; u < panorama.picture.width; ++u) {
+      all += weight;
+      if (panorama.levels[static_cast<std::size_t>(v * panorama.picture.width + u)] == 0) dark += weight;
+    }
+  }
+  return all > 0 ? dark / all : 0;
+}
+
 std::vector<ReportPicture> pictures_of(const FlownMission& mission, const FlightLog& log,
                                        const std::filesystem::path& frames) {
   std::vector<ReportPicture> pictures;
   if (const ChunkPicture* panorama = log.pictures.last_complete(omma_IMAGE_PANORAMA_J2000)) {
-    pictures.push_back(
-        {"panorama.png",
-         "The whole sky in J2000, right ascension growing to the left, made on board from all "
-         "cameras; black was not seen. Stars brighter than V 2.2 are named where the attitude and "
-         "the catalogue put them.",
-         panorama_picture(*panorama, star_catalogue(mission)).png()});
+    pictures.push_back({"panorama.png",
+                        "The whole sky in J2000, right ascension growing to the left, made on board from all "
+                        "cameras. Black is what no camera of the rig looks at, " +
+                            format("%.1f", 100 * share_not_seen(*panorama)) +
+                            " % of the sphere; the sky that was seen is grey with its noise. Stars brighter "
+                            "than V 2.2 are named "
+                            "where the attitude and the catalogue put them.",
+                        panorama_picture(*panorama, star_catalogue(mission)).png()});
   }
   if (log.dots.empty()) return pictures;
   const std::uint64_t frame = frame_to_show(log);

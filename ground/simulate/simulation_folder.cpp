@@ -1,10 +1,12 @@
 #include "ground/simulate/simulation_folder.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
 #include "fsw/kernel/input_error.hpp"
 #include "fsw/services/toml_table.hpp"
+#include "hal/recorded/exposures_file.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "sim/truth_json.hpp"
 
@@ -80,6 +82,7 @@ void SimulationFolder::clear() const {
       if (file.extension() == ".png" && file.filename().string().starts_with(prefix)) frames.push_back(file);
     }
     for (const fs::path& file : frames) fs::remove(file, error);
+    fs::remove(folder / kExposuresFile, error);
   }
 }
 
@@ -111,6 +114,20 @@ void SimulationFolder::write_image(int camera, std::uint64_t frame, const ImageV
   char number[32];
   std::snprintf(number, sizeof number, "_%06llu.png", static_cast<unsigned long long>(frame));
   write_png(top_ / name / (name + number), image, PngEffort::kFast);
+}
+
+// Only of cameras whose exposure changes.
+void SimulationFolder::write_exposures() const {
+  for (std::size_t c = 0; c < scenario_.rig.cameras.size(); ++c) {
+    const sim::Sensor& sensor = scenario_.sensors[c];
+    if (sensor.bracket.empty()) continue;
+    std::string text = std::string(kExposuresHeading) + '\n';
+    for (std::uint64_t frame = 0; frame < static_cast<std::uint64_t>(scenario_.frames); ++frame)
+      text += exposure_line(frame,
+                            {.exposure_ns = std::llround(1e9 * sensor.bracket[frame % sensor.bracket.size()]),
+                             .black_level = static_cast<float>(sensor.black_level)});
+    write_text(top_ / scenario_.rig.cameras[c].name.view() / kExposuresFile, text);
+  }
 }
 
 void SimulationFolder::write_truth(const std::vector<std::string>& lines) const {

@@ -20,6 +20,8 @@ class SimulationFolder {
 
   /// Safe from several threads at once, for different images.
   void write_image(int camera, std::uint64_t frame, const ImageView& image) const;
+  /// exposures.csv of each camera with a bracket.
+  void write_exposures() const;
   /// All lines of truth.jsonl. It is written last: a folder that has it is complete.
   void write_truth(const std::vector<std::string>& lines) const;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hal/camera.hpp"
 #include "hal/recorded/image_file.hpp"
 
 namespace omma {
@@ -16,6 +17,8 @@ class FrameStore {
   virtual std::size_t count() const = 0;
   /// Of the trigger that frame `i` belongs to; they rise.
   virtual std::uint64_t number(std::size_t i) const = 0;
+  /// It was taken with; exposure 0: not known.
+  virtual CameraSettings settings(std::size_t /*i*/) const { return {}; }
   /// For messages.
   virtual std::string name(std::size_t i) const = 0;
   /// @throws InputError where the frame is not readable

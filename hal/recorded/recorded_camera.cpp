@@ -78,6 +78,7 @@ void RecordedCamera::fill(Slot& slot, const Recorded& frame) {
   const Image& image = slot.image;
   const ImageSize size{image.width, image.height, image.bytes_per_pixel()};
   slot.number = frame.number;
+  slot.settings = store_->settings(frame.index);
   try {
     store_->read(frame.index, slot.image);
     slot.readable = true;
@@ -126,6 +127,7 @@ Frame RecordedCamera::grab(std::uint64_t number, TimeNs trigger_time_ns) noexcep
     if (slot.number >= number) {
       if (slot.number == number && slot.readable) {
         frame.image = slot.image.view();
+        frame.settings = slot.settings;
         frame.status = FrameStatus::kFresh;
       }
       return frame;

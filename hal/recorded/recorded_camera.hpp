@@ -73,6 +73,7 @@ class RecordedCamera final : public CameraDriver {
   struct Slot {
     Image image;
     std::uint64_t number = 0;
+    CameraSettings settings{};
     bool readable = false;
   };
 

@@ -1,9 +1,12 @@
 // `omma images` and `omma composite` as an operator runs them.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <vector>
 
+#include "components/imaging/grey_scale.hpp"
 #include "components/imaging/image_coder.hpp"
+#include "components/sensor/fits_handle.hpp"
 #include "hal/recorded/image_file.hpp"
 #include "tests/ground/run_omma.hpp"
 #include "tests/ground/sample_recording.hpp"
@@ -44,6 +47,8 @@ void write_pictures(const std::string& path, int lost, bool damaged = false) {
     chunk.composite = omma_COMPOSITE_DARKEST;
     chunk.composed = 12;
     chunk.image = 7;
+    chunk.bits = 8;
+    chunk.light_most = 0.25;
     chunk.width_px = kWidth;
     chunk.height_px = kHeight;
     chunk.first_row = static_cast<std::uint16_t>(10 * part);
@@ -69,6 +74,52 @@ TEST(ImagesCommand, PutsAPictureTogetherFromItsChunks) {
   for (int row = 0; row < kHeight; ++row)
     for (int column = 0; column < kWidth; ++column)
       ASSERT_EQ(image.view().row<std::uint8_t>(row)[column], grey(row, column)) << row << ", " << column;
+}
+
+TEST(ImagesCommand, AFusedPictureComesWithItsLightAsNumbers) {
+  const OperatorsFolder folder;
+  const GreyScale scale{ImageScale::kAsinh, 12, 500, 0.01};
+  {
+    telemetry::RecordingWriter recording((folder / "pass.mcap").string(), "testsat", false, {});
+    telemetry::CdrWriter cdr;
+    std::vector<std::uint8_t> bytes;
+    for (const double light : {0.0, 0.02, 3.0, 450.0}) {
+      const std::uint16_t level = scale.level(light);
+      bytes.push_back(static_cast<std::uint8_t>(level));
+      bytes.push_back(static_cast<std::uint8_t>(level >> 8));
+    }
+    omma_ImageChunk chunk{};
+    chunk.valid = true;
+    chunk.kind = omma_IMAGE_VIEW_RIG;
+    chunk.composite = omma_COMPOSITE_FUSED;
+    chunk.composed = 4;
+    chunk.image = 1;
+    chunk.width_px = chunk.height_px = chunk.rows = 2;
+    chunk.bits = 12;
+    chunk.scale = omma_SCALE_ASINH;
+    chunk.light_most = scale.most;
+    chunk.light_soft = scale.soft;
+    chunk.pixels = {8, 8, bytes.data(), false};
+    recording.write(telemetry::TopicId::kImageChunk, cdr.write(telemetry::TopicId::kImageChunk, &chunk));
+    recording.close();
+  }
+  const Told told = folder.omma("images pass.mcap --out pictures");
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, HasSubstr("00001_view_rig_fused.png .fits"));
+  FitsFile fits((folder / "pictures/00001_view_rig_fused.fits").string());
+  fits.open();
+  std::array<float, 4> light{};
+  std::array<long, 2> first{1, 1};
+  fits.call(
+      [&](int* status) {
+        fits_read_pix(fits.get(), TFLOAT, first.data(), 4, nullptr, light.data(), nullptr, status);
+      },
+      "four pixels");
+  EXPECT_NEAR(light[0], 0, 1e-4);
+  EXPECT_NEAR(light[1], 0.02, 1e-4);
+  EXPECT_NEAR(light[2], 3, 0.02);
+  EXPECT_NEAR(light[3], 450, 2);
+  EXPECT_EQ(read_image(folder / "pictures/00001_view_rig_fused.png").width, 2);
 }
 
 TEST(ImagesCommand, RowsThatDidNotComeDownAreCountedAndHatched) {

@@ -6,10 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "components/geometry/rig_file.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -28,11 +30,11 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// The flight program, until this goes.
+/// The flight program, or another, until this goes.
 class Flight {
  public:
-  Flight(const std::string& arguments, const fs::path& said) {
-    const std::string command = "exec " OMMA_RUN "omma-fsw " + arguments + " >" + said.string() + " 2>&1";
+  Flight(const std::string& arguments, const fs::path& said, const std::string& program = "omma-fsw") {
+    const std::string command = "exec " OMMA_RUN + program + " " + arguments + " >" + said.string() + " 2>&1";
     std::string words[] = {"sh", "-c", command};
     char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
     EXPECT_EQ(posix_spawn(&process_, "/bin/sh", nullptr, nullptr, argv, environ), 0);
@@ -140,6 +142,63 @@ TEST_F(LiveCommands, AreListedAnsweredRejectedCarriedOutAndKeptForTheNextStart) 
   EXPECT_EQ(again.stop(), 0);
   EXPECT_THAT(text_of(folder_ / "said"),
               HasSubstr("parameters.a: tracker.patience = 7 (the mission says 3)"));
+}
+
+constexpr int kRampSide = 48;
+
+std::uint16_t ramp(int u, int v) {
+  return static_cast<std::uint16_t>(1000 + 20 * u + 3 * v);
+}
+
+TEST_F(LiveCommands, PicturesAreAskedForHeardAndPutTogether) {
+  std::string mission = text_of(folder_ / "mission.toml");
+  const std::string width = "panorama_width = 1200";
+  mission.replace(mission.find(width), width.size(),
+                  "panorama_width = 128\nview_width = 96\nview_height = 64");
+  std::ofstream(folder_ / "mission.toml") << mission;
+  const fs::path frame = folder_ / "frames" / "hdr1" / "hdr1_000000.png";
+  Image image = read_image(frame);
+  image.white_level = 4095;
+  for (int v = 0; v < kRampSide; ++v)
+    for (int u = 0; u < kRampSide; ++u)
+      reinterpret_cast<std::uint16_t*>(image.pixels.data())[(v + 80) * image.width + u + 100] = ramp(u, v);
+  write_png(frame, image.view());
+
+  const std::string at = " --domain " + std::to_string(domain());
+  const std::string pass = (folder_ / "pass.mcap").string();
+  Flight flight(flight_arguments(), folder_ / "said");
+  EXPECT_EQ(command("no_operation").exit_code, 0) << text_of(folder_ / "said");
+  {
+    Flight record("record " + pass + at, folder_ / "recorded", "omma");
+    std::this_thread::sleep_for(std::chrono::seconds(2));  // until it listens
+    EXPECT_THAT(command("request_picture view_rig 30 -10 40").output,
+                HasSubstr("request_picture view_rig 30 -10 40: completed"));
+    EXPECT_THAT(command("request_region 0 100 80 " + std::to_string(kRampSide)).output,
+                HasSubstr(": completed"));
+    const test::ProgramRun beyond = command("request_region 0 700 80 100");
+    EXPECT_EQ(beyond.exit_code, 1);
+    EXPECT_THAT(beyond.output, HasSubstr("size"));
+    const test::ProgramRun wide = command("request_picture view 0 0 179");
+    EXPECT_EQ(wide.exit_code, 1);
+    EXPECT_THAT(wide.output, HasSubstr("field"));
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+  }
+  EXPECT_EQ(flight.stop(), 0) << text_of(folder_ / "said");
+  const test::ProgramRun images =
+      test::run_omma("images " + pass + " --out " + (folder_ / "pictures").string());
+  EXPECT_THAT(images.output, HasSubstr("30.00 -10.00, 40.00 deg"));
+  EXPECT_THAT(images.output, HasSubstr("camera 0 from 100, 80"));
+  bool found = false;
+  for (const auto& entry : fs::directory_iterator(folder_ / "pictures")) {
+    if (!entry.path().string().ends_with("_camera.png")) continue;
+    found = true;
+    const Image region = read_image(entry.path());
+    EXPECT_EQ(region.white_level, 4095);
+    ASSERT_EQ(region.width, kRampSide);
+    for (int v = 0; v < kRampSide; ++v)
+      for (int u = 0; u < kRampSide; ++u) ASSERT_EQ(region.view().row<std::uint16_t>(v)[u], ramp(u, v));
+  }
+  EXPECT_TRUE(found) << images.output;
 }
 
 TEST_F(LiveCommands, SilenceAndABadDictionaryAreSentences) {

@@ -234,5 +234,28 @@ TEST_F(Recording, WhatIsNoRecordingIsRefusedAtStartUp) {
   EXPECT_THAT(error_of(), HasSubstr("recording: expected a folder of frames"));
 }
 
+TEST_F(Recording, TellsTheExposuresThatLieBesideIt) {
+  add_many(3);
+  const std::filesystem::path file = top_ / "cam0" / "exposures.csv";
+  std::ofstream(file) << "number,exposure_ms,gain,black_level\n0,0.5,1,10\n2,20,2,10\n";
+  RecordedCamera camera(top_, "cam0", {});
+  EXPECT_EQ(camera.grab(0, 0).settings.exposure_ns, 500'000);
+  EXPECT_EQ(camera.grab(1, 0).settings.exposure_ns, 0) << "not known";
+  const Frame last = camera.grab(2, 0);
+  EXPECT_EQ(last.settings.exposure_ns, 20'000'000);
+  EXPECT_EQ(last.settings.gain, 2);
+  EXPECT_EQ(last.settings.black_level, 10);
+  std::ofstream(file) << "0,0.5,1\n";
+  EXPECT_THAT(error_of(), HasSubstr("exposures.csv:1: line: expected number,exposure_ms,gain,black_level"));
+  std::ofstream(file) << "0,-1,1,0\n";
+  EXPECT_THAT(error_of(), HasSubstr("exposures.csv:1: exposure_ms: expected above 0"));
+  std::ofstream(file) << "0,1,0,0\n";
+  EXPECT_THAT(error_of(), HasSubstr("exposures.csv:1: gain: expected above 0"));
+  std::ofstream(file) << "0,1,1,70000\n";
+  EXPECT_THAT(error_of(), HasSubstr("exposures.csv:1: black_level: expected a grey level"));
+  std::ofstream(file) << "0,1,1,0\n0,2,1,0\n";
+  EXPECT_THAT(error_of(), HasSubstr("exposures.csv:2: number: expected each frame once, found 0 again"));
+}
+
 }  // namespace
 }  // namespace omma

@@ -69,7 +69,7 @@ class MadeCamera final : public CameraDriver {
 
 struct Loop {
   explicit Loop(MadeCamera& made, ExposureParameters parameters = {}) : camera(made) {
-    parameters.automatic = true;
+    parameters.automatic = parameters.bracket_ns.empty();
     CameraDriver* driver = &camera;
     exposure = std::make_unique<Exposure>(std::span(&driver, 1), std::span(&parameters, 1), events);
     frames->cameras.resize(1);
@@ -93,6 +93,27 @@ struct Loop {
   std::unique_ptr<Exposure> exposure;
   std::uint64_t number = 0;
 };
+
+TEST(Exposure, ABracketTakesItsExposuresInTurn) {
+  MadeCamera camera;
+  ExposureParameters parameters;
+  parameters.bracket_ns.push_back(200'000);
+  parameters.bracket_ns.push_back(1'000'000);
+  parameters.bracket_ns.push_back(20'000'000);
+  Loop loop(camera, parameters);
+  loop.run(10);
+  for (int k = 0; k < 12; ++k) {
+    const TimeNs before = camera.settings().exposure_ns;
+    loop.run(1);
+    const TimeNs now = camera.settings().exposure_ns;
+    EXPECT_EQ(now, before == 200'000 ? 1'000'000 : before == 1'000'000 ? 20'000'000 : 200'000);
+  }
+  EXPECT_EQ(loop.told().state, ExposureState::kBracket);
+  camera.answer = SettingsResult::kNoControl;
+  loop.run(2);
+  EXPECT_EQ(loop.told().state, ExposureState::kGood);
+  EXPECT_EQ(loop.told().refused, 1U) << "asked no more";
+}
 
 TEST(Exposure, LeadsABrightSkyAndADarkOneIntoTheBoundsAndRests) {
   for (const bool tells : {true, false}) {

@@ -40,6 +40,22 @@ TEST(ImageCoder, GivesBackEveryPixel) {
   }
 }
 
+TEST(ImageCoder, GivesBackEveryDeepPixel) {
+  ImageCoder coder(32768);
+  std::vector<std::uint8_t> coded(131072);
+  std::mt19937_64 random(3);
+  for (const std::uint64_t most : {4U, 4095U, 65535U}) {
+    std::vector<std::uint16_t> pixels(300 * 20);
+    for (std::uint16_t& pixel : pixels) pixel = static_cast<std::uint16_t>(random() % (most + 1));
+    const std::size_t bytes = coder.encode(pixels, 300, coded);
+    ASSERT_GT(bytes, 0U);
+    std::vector<std::uint16_t> back(pixels.size());
+    ASSERT_TRUE(decode_rows({coded.data(), bytes}, 300, 20, back));
+    EXPECT_EQ(back, pixels) << most;
+    EXPECT_FALSE(decode_rows({coded.data(), bytes / 2}, 300, 20, back));
+  }
+}
+
 TEST(ImageCoder, ANoisySkyBecomesLessThanHalf) {
   ImageCoder coder(32768);
   std::vector<std::uint8_t> coded(65536);

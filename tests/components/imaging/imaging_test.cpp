@@ -7,45 +7,13 @@
 
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
-#include "tests/components/imaging/painted_sky.hpp"
+#include "tests/components/imaging/imaging_bench.hpp"
 
 namespace omma {
 namespace {
 
-double smooth_sky(const Eigen::Vector3d& d) {
-  return 0.15 + 0.05 * d.x() - 0.03 * d.z();
-}
-
-/// The component with the outputs it reads, as a topology would bind them.
-struct Bench {
-  explicit Bench(const ImagingParameters& parameters)
-      : rig(testing::tetrahedral_rig()), imaging(parameters, rig) {
-    imaging.frames.bind(frames);
-    imaging.dots.bind(dots);
-    imaging.attitude.bind(attitude);
-    dots->cameras.resize(rig.cameras.size());
-    for (DotList& list : dots->cameras) list.background = 0;
-  }
-
-  void take(std::uint64_t number, const Eigen::Quaterniond& rig_from_j2000) {
-    images = testing::paint(rig, rig_from_j2000, smooth_sky);
-    frames->number = number;
-    frames->cameras.clear();
-    for (const ImageView& view : images.views)
-      frames->cameras.push_back({view, number, 0, FrameStatus::kFresh});
-    attitude->valid = true;
-    attitude->frame = number;
-    attitude->time_ns = static_cast<TimeNs>(number) * 100000000;
-    attitude->solution.rig_from_j2000 = rig_from_j2000;
-  }
-
-  Rig rig;
-  Out<Frames> frames;
-  Out<DotLists> dots;
-  Out<AttitudeEstimate> attitude;
-  testing::PaintedImages images;
-  Imaging imaging;
-};
+using testing::smooth_sky;
+using Bench = testing::ImagingBench;
 
 ImagingParameters small_panorama() {
   ImagingParameters parameters;
@@ -335,7 +303,7 @@ TEST(Imaging, APartOfACamerasImageIsItsPixels) {
   EXPECT_EQ(bench.imaging.chunk->camera, 1);
   EXPECT_EQ(bench.imaging.chunk->left, 100);
   parameters.region.left = 300;
-  EXPECT_THROW(Imaging(parameters, testing::tetrahedral_rig()), std::invalid_argument);
+  EXPECT_THROW(Bench{parameters}, std::invalid_argument);
 }
 
 TEST(Imaging, CompositesRequestsAndCompressionAllocateNothing) {
@@ -360,7 +328,7 @@ TEST(Imaging, CompositesRequestsAndCompressionAllocateNothing) {
 TEST(Imaging, RefusesARowLongerThanAChunk) {
   ImagingParameters parameters;
   parameters.panorama.width = 16384;
-  EXPECT_THROW(Imaging(parameters, testing::tetrahedral_rig()), std::invalid_argument);
+  EXPECT_THROW(Bench{parameters}, std::invalid_argument);
 }
 
 }  // namespace

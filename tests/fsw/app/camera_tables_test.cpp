@@ -18,6 +18,7 @@ const Lens kLens = Lens::equidistant(120, 80, 40, {59.5, 39.5}, 1.6);
 
 struct Tables {
   ExtractorCamera dots;
+  double read_noise_e = 5;
   ExposureParameters exposure;
 };
 
@@ -28,7 +29,7 @@ Tables read(const std::string& text) {
   tables.dots.width = kLens.width();
   tables.dots.height = kLens.height();
   read_extractors(table, tables.dots);
-  read_sensor(table, kLens, tables.dots);
+  read_sensor(table, kLens, tables.dots, tables.read_noise_e);
   read_mask(table, kLens, tables.dots);
   tables.exposure = read_exposure(table);
   return tables;
@@ -171,6 +172,23 @@ TEST(CameraTables, LimitTheExposure) {
   expect_refused("exposure = { target = 0.5 }", "exposure.target: expected a number between dark and bright");
   expect_refused("exposure = { automatic = 3 }", "exposure.automatic: expected true or false");
   expect_refused("exposure = { iso = 100 }", "exposure.iso: expected one of");
+}
+
+TEST(CameraTables, TakeABracketAndRefuseOneThatIsNone) {
+  const Tables tables = read("exposure = { bracket_ms = [0.5, 20] }\nsensor = { read_noise_e = 3 }");
+  ASSERT_EQ(tables.exposure.bracket_ns.size(), 2U);
+  EXPECT_EQ(tables.exposure.bracket_ns[0], 500'000);
+  EXPECT_FALSE(tables.exposure.automatic);
+  EXPECT_EQ(tables.read_noise_e, 3);
+  expect_refused("exposure = { bracket_ms = [0.5] }",
+                 "exposure.bracket_ms: expected 2 to 4 exposures, found 1");
+  expect_refused("exposure = { bracket_ms = [1, 2, 3, 4, 5] }",
+                 "exposure.bracket_ms: expected 2 to 4 exposures, found 5");
+  expect_refused("exposure = { bracket_ms = [1, 0] }",
+                 "exposure.bracket_ms: expected exposures from 0.001 to 60000 ms");
+  expect_refused("exposure = { automatic = true, bracket_ms = [1, 2] }",
+                 "exposure.bracket_ms: expected automatic exposure or a bracket, not both");
+  expect_refused("sensor = { read_noise_e = 0 }", "sensor.read_noise_e: expected a number from 0.1 to 10000");
 }
 
 }  // namespace

@@ -165,8 +165,16 @@ TEST_F(MissionFile, MayAskForACompositeOfPartOfTheSkyCompressed) {
 
 TEST_F(MissionFile, WithAPictureThatCannotBeMadeIsRefused) {
   replace("demo.toml", "[imaging]", "[imaging]\nkind = \"mercator\"");
-  EXPECT_THAT(message(), HasSubstr("imaging.kind: expected \"panorama_j2000\", \"panorama_rig\", \"view\", "
-                                   "\"fisheye_j2000\", \"fisheye_rig\" or \"camera\", found mercator"));
+  EXPECT_THAT(message(),
+              HasSubstr("imaging.kind: expected \"panorama_j2000\", \"panorama_rig\", \"view\", "
+                        "\"fisheye_j2000\", \"fisheye_rig\", \"camera\" or \"view_rig\", found mercator"));
+  SetUp();
+  replace("demo.toml", "[imaging]", "[imaging]\ncomposite = \"fused\"\nfused_bits = 17");
+  EXPECT_THAT(message(), HasSubstr("imaging.fused_bits: expected an integer from 8 to 16"));
+  SetUp();
+  replace("demo.toml", "[imaging]",
+          "[imaging]\nkind = \"camera\"\ncomposite = \"fused\"\ncamera = \"cam0\"\nregion_px = [0, 0, 9, 9]");
+  EXPECT_THAT(message(), HasSubstr("imaging.composite: expected no \"fused\" where kind is \"camera\""));
   SetUp();
   replace("demo.toml", "[imaging]", "[imaging]\ncomposed = 5");
   EXPECT_THAT(message(), HasSubstr("imaging.composed: expected "));

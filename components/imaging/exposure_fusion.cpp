@@ -37,6 +37,7 @@ void FusedLight::add(const ExposedLevel& seen, const FusionSensor& sensor, doubl
   const double weight = share * seen.exposure * seen.exposure / (variance * unit * unit);
   weighted_ += static_cast<float>(weight * unit * signal / seen.exposure);
   weights_ += static_cast<float>(weight);
+  if (share > 0) information_ += static_cast<float>(weight / share);
 }
 
 double FusedLight::light() const noexcept {
@@ -45,8 +46,15 @@ double FusedLight::light() const noexcept {
 }
 
 double FusedLight::sigma() const noexcept {
-  return weights_ > 0 ? 1 / std::sqrt(static_cast<double>(weights_))
-                      : std::numeric_limits<double>::infinity();
+  return information_ > 0 ? 1 / std::sqrt(static_cast<double>(information_))
+                          : std::numeric_limits<double>::infinity();
+}
+
+bool FusedLight::says_something(double noise) const noexcept {
+  constexpr double kPoor = 10;  // times the noise of the better exposures
+  constexpr double kSure = 5;   // of its own
+  if (!(weights_ > 0)) return bound_ > 0;
+  return sigma() < kPoor * noise || light() > kSure * sigma();
 }
 
 bool fuse_exposures(std::span<const ExposedImage> images, const FusionSensor& sensor,

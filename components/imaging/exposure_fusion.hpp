@@ -44,12 +44,17 @@ class FusedLight {
   /// [units a second] above black; where every exposure was full, what the one that holds most would have at
   /// least; NaN where none was added.
   double light() const noexcept;
-  /// Standard deviation of `light` by photon and read noise; infinite where every exposure was full.
+  /// Standard deviation of `light` by photon and read noise, where all shares are alike; infinite where every
+  /// exposure was full.
   double sigma() const noexcept;
+  /// False where all that saw it were exposures so short that they say nothing against `noise`, the standard
+  /// deviation of the better ones.
+  bool says_something(double noise) const noexcept;
 
  private:
   float weighted_ = 0;
   float weights_ = 0;
+  float information_ = 0;  // the weights without their shares
   float bound_ = 0;
 };
 

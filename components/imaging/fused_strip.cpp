@@ -31,7 +31,8 @@ void FusedStrip::add(const Picture& picture, const Mosaic& mosaic, RigImages ima
 void FusedStrip::levels(const GreyScale& scale, std::span<std::uint16_t> out) const noexcept {
   const std::size_t many =
       std::min(out.size(), static_cast<std::size_t>(rows_) * static_cast<std::size_t>(width_));
-  for (std::size_t i = 0; i < many; ++i) out[i] = scale.level(light_[i].light());
+  for (std::size_t i = 0; i < many; ++i)
+    out[i] = light_[i].says_something(scale.soft) ? scale.level(light_[i].light()) : std::uint16_t{0};
 }
 
 }  // namespace omma

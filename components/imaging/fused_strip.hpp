@@ -14,7 +14,7 @@ namespace omma {
 
 class FusedStrip {
  public:
-  /// Allocates 12 bytes a pixel.
+  /// Allocates 16 bytes a pixel.
   explicit FusedStrip(std::size_t most_pixels) : light_(most_pixels) {}
 
   /// Begins rows from `first_row`: as many as asked, as there are, and as there is room for.
@@ -24,7 +24,8 @@ class FusedStrip {
            const Eigen::Quaterniond& rig_from_j2000) noexcept;
   int frame_sets() const noexcept { return frame_sets_; }
   int rows() const noexcept { return rows_; }
-  /// The strip's grey levels, row after row; as many as fit.
+  /// The strip's grey levels, row after row; as many as fit. 0 too where only exposures looked that are too
+  /// short to say anything.
   void levels(const GreyScale& scale, std::span<std::uint16_t> out) const noexcept;
 
  private:

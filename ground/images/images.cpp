@@ -1,12 +1,16 @@
 // Every picture as a PNG; rows that did not come down are hatched, and the table says how many.
 #include "ground/images/images.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "fsw/kernel/input_error.hpp"
 #include "ground/images/light_file.hpp"
@@ -38,9 +42,25 @@ const char* name_of(omma_ImageComposite composite) {
   return i < kNames.size() ? kNames[i] : "unknown";
 }
 
+/// A fused picture spans more than there is in it: its levels from its darkest to its brightest.
+void stretch(const ChunkPicture& picture, GreyPicture& shown) {
+  std::vector<std::uint16_t> seen;
+  std::copy_if(picture.levels.begin(), picture.levels.end(), std::back_inserter(seen),
+               [](std::uint16_t level) { return level > 0; });
+  if (seen.empty()) return;
+  std::sort(seen.begin(), seen.end());
+  const double least = seen[seen.size() / 100];
+  const double most = std::max(least + 1, static_cast<double>(seen.back()));
+  for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+    if (picture.levels[i] > 0)
+      shown.pixels[i] = static_cast<std::uint8_t>(
+          std::lround(1 + 254 * std::clamp((picture.levels[i] - least) / (most - least), 0.0, 1.0)));
+}
+
 /// A gap in the link is not to look like a gap in the sky.
 GreyPicture with_gaps_hatched(const ChunkPicture& picture) {
   GreyPicture shown = picture.picture;
+  if (picture.composite == omma_COMPOSITE_FUSED) stretch(picture, shown);
   for (int v = 0; v < shown.height; ++v) {
     if (picture.rows[static_cast<std::size_t>(v)]) continue;
     for (int u = 0; u < shown.width; ++u) {

@@ -170,7 +170,7 @@ TEST_F(MissionFile, WithAPictureThatCannotBeMadeIsRefused) {
                         "\"fisheye_j2000\", \"fisheye_rig\", \"camera\" or \"view_rig\", found mercator"));
   SetUp();
   replace("demo.toml", "[imaging]", "[imaging]\ncomposite = \"fused\"\nfused_bits = 17");
-  EXPECT_THAT(message(), HasSubstr("imaging.fused_bits: expected an integer from 8 to 16"));
+  EXPECT_THAT(message(), HasSubstr("imaging.fused_bits: expected a whole number from 8 to 16"));
   SetUp();
   replace("demo.toml", "[imaging]",
           "[imaging]\nkind = \"camera\"\ncomposite = \"fused\"\ncamera = \"cam0\"\nregion_px = [0, 0, 9, 9]");

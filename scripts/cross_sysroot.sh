@@ -8,7 +8,7 @@ sysroot=$(realpath -m "$2")
 work=$sysroot.apt
 packages="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev cyclonedds-dev libtomlplusplus-dev libspng-dev
   libjpeg62-turbo-dev libcfitsio-dev libyaml-cpp-dev libzstd-dev liberfa-dev libgpiod-dev libcli11-dev nlohmann-json3-dev libncurses-dev
-  libcairo2-dev libmicrohttpd-dev libopencv-calib3d-dev libgtest-dev libgmock-dev libbenchmark-dev"
+  libcairo2-dev libmicrohttpd-dev librsvg2-dev libopencv-calib3d-dev libgtest-dev libgmock-dev libbenchmark-dev"
 [ -e "$sysroot/.complete" ] && [ "$(cat "$sysroot/.complete")" = "$packages" ] && exit 0
 
 say "Sysroot: $architecture packages into $sysroot"

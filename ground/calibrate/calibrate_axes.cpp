@@ -7,6 +7,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "ground/calibrate/axis_report.hpp"
 #include "ground/calibrate/calibrate.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -65,7 +66,7 @@ int calibrate_axes(const Arguments& a) {
   make_folder(a.output, "--output");
   const std::filesystem::path folder = a.output;
   write_text_file((folder / "axes.json").string(), axis_json(report));
-  write_text_file((folder / "axes.html").string(), axis_page(report));
+  write_page((folder / "axes.html").string(), axis_page(report));
   return 0;
 }
 

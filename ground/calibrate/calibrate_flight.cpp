@@ -8,6 +8,7 @@
 #include "ground/calibrate/drift_report.hpp"
 #include "ground/calibrate/sky_files.hpp"
 #include "ground/calibrate/sky_report.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -80,7 +81,7 @@ int calibrate_flight(const FlightCalibrationArguments& a) {
   write_sky_calibration(drift.mean, a.output, true);
   const std::filesystem::path folder = a.output;
   write_text_file((folder / "drift.json").string(), drift_json(drift));
-  write_text_file((folder / "drift.html").string(), drift_page(drift));
+  write_page((folder / "drift.html").string(), drift_page(drift));
   return 0;
 }
 

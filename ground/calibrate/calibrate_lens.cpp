@@ -11,6 +11,7 @@
 #include "ground/calibrate/board_adjustment.hpp"
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/calibrate/sky_adjustment.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -224,7 +225,7 @@ int calibrate(const Arguments& a) {
       a.model == "ocam" ? "calib_results.txt" : (a.model == "kb4" ? "camchain.yaml" : "Calib_Results.m");
   write_text_file((folder / name).string(), lens_file_text(r.train.shape.lens().value()));
   write_text_file((folder / "calibration.json").string(), json_of(r));
-  write_text_file((folder / "calibration.html").string(), page_of(r));
+  write_page((folder / "calibration.html").string(), page_of(r));
   std::fprintf(stderr, "lens and page written: %s\n", (folder / name).c_str());
   return 0;
 }

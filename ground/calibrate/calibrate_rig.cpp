@@ -15,6 +15,7 @@
 #include "ground/calibrate/calibrate.hpp"
 #include "ground/calibrate/rig_calibration.hpp"
 #include "ground/calibrate/rig_text.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 #include "ground/photographs/photographs.hpp"
@@ -245,7 +246,7 @@ int calibrate(const Arguments& a) {
       (folder / "rig.toml").string(),
       rig_file_text(calibration.rig, lenses, "Calibrated on target cards by omma calibrate rig."));
   write_text_file((folder / "calibration.json").string(), json_of(told));
-  write_text_file((folder / "calibration.html").string(), page_of(told));
+  write_page((folder / "calibration.html").string(), page_of(told));
   std::fprintf(stderr, "rig and page written: %s\n", (folder / "calibration.html").c_str());
   return 0;
 }

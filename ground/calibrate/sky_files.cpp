@@ -4,6 +4,7 @@
 
 #include "ground/calibrate/rig_text.hpp"
 #include "ground/calibrate/sky_report.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -21,7 +22,7 @@ void write_sky_calibration(const SkyCalibration& calibration, const std::string&
     write_text_file((folder / "rig.toml").string(),
                     rig_file_text(calibration.rig, files, "Calibrated on the stars by omma calibrate sky."));
   write_text_file((folder / "calibration.json").string(), sky_report_json(calibration));
-  write_text_file((folder / "calibration.html").string(), sky_report_page(calibration));
+  write_page((folder / "calibration.html").string(), sky_report_page(calibration));
 }
 
 }  // namespace omma::ground

@@ -8,6 +8,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "fsw/services/toml_table.hpp"
 #include "ground/compare_motion/motion_report.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -77,7 +78,7 @@ int compare_motion(const Arguments& a) {
     make_folder(a.output, "--output");
     const std::filesystem::path folder = a.output;
     write_text_file((folder / "motion.json").string(), motion_json(report));
-    write_text_file((folder / "motion.html").string(), motion_page(report));
+    write_page((folder / "motion.html").string(), motion_page(report));
   }
   return report.match.observable ? 0 : 1;
 }

@@ -14,6 +14,7 @@
 #include "ground/design/coverage_picture.hpp"
 #include "ground/design/design_study.hpp"
 #include "ground/format.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -109,8 +110,8 @@ int design(const DesignArguments& arguments) {
     if (arguments.cameras > 0) write_rig_file((folder / "rig.toml").string(), one->paper.rig, arguments.lens);
   }
   write_text_file((folder / "design.json").string(), study_json(rows, one));
-  write_text_file((folder / "design.html").string(),
-                  study_page(rows, arguments.spacing, arguments.study.distance, one, png));
+  write_page((folder / "design.html").string(),
+             study_page(rows, arguments.spacing, arguments.study.distance, one, png));
   std::fprintf(stderr, "page written: %s\n", (folder / "design.html").c_str());
   return 0;
 }

@@ -10,6 +10,7 @@
 #include "ground/experiment/experiment.hpp"
 #include "ground/experiment/reference.hpp"
 #include "ground/experiment/run_arguments.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/report/report_pictures.hpp"
 #include "sim/random.hpp"
@@ -95,7 +96,7 @@ void write_docking(const DockingTrial& trial, const ChainRun& run, const fs::pat
   const std::vector<std::uint8_t> panorama = panorama_of(run);
   if (!panorama.empty()) write_bytes((folder / "panorama.png").string(), panorama);
   write_text_file((folder / "docking.json").string(), docking_json(trial));
-  write_text_file((folder / "docking.html").string(), docking_page(trial, pictures, panorama));
+  write_page((folder / "docking.html").string(), docking_page(trial, pictures, panorama));
   std::printf("report           %s\n", (folder / "docking.html").c_str());
 }
 
@@ -143,7 +144,7 @@ int repetition(const DockingArguments& arguments) {
   }
   std::fputs(repetition_text(trials).c_str(), stdout);
   write_text_file((folder / "repetition.json").string(), repetition_json(trials));
-  write_text_file((folder / "repetition.html").string(), repetition_page(trials));
+  write_page((folder / "repetition.html").string(), repetition_page(trials));
   std::printf("report %s\n", (folder / "repetition.html").c_str());
   return 0;
 }

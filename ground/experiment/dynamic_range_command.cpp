@@ -14,6 +14,7 @@
 #include "ground/draw/canvas.hpp"
 #include "ground/experiment/dynamic_range.hpp"
 #include "ground/experiment/experiment.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/solve/photograph_solver.hpp"
 #include "hal/recorded/image_file.hpp"
@@ -204,7 +205,7 @@ int dynamic_range(const Arguments& a) {
   }
   std::fputs(dynamic_range_text(result).c_str(), stdout);
   write_text_file((folder / "dynamic_range.json").string(), dynamic_range_json(result));
-  write_text_file((folder / "dynamic_range.html").string(), dynamic_range_page(result));
+  write_page((folder / "dynamic_range.html").string(), dynamic_range_page(result));
   std::printf("report %s\n", (folder / "dynamic_range.html").c_str());
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "ground/experiment/experiment.hpp"
 #include "ground/experiment/reference.hpp"
 #include "ground/experiment/run_arguments.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 
 namespace omma::ground {
@@ -39,7 +40,7 @@ int earth_rotation(const RunArguments& arguments) {
   for (const RigPicture& picture : pictures)
     write_bytes((folder / (picture.camera + ".png")).string(), picture.png);
   write_text_file((folder / "earth_rotation.json").string(), earth_rotation_json(result));
-  write_text_file((folder / "earth_rotation.html").string(), earth_rotation_page(result, pictures));
+  write_page((folder / "earth_rotation.html").string(), earth_rotation_page(result, pictures));
   if (arguments.recordings.empty() && !arguments.keep_frames) remove_frames(folder, result.run.mission.rig);
   std::printf("report     %s\n", (folder / "earth_rotation.html").c_str());
   return 0;

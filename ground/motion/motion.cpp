@@ -11,6 +11,7 @@
 #include "components/motion/motion_files.hpp"
 #include "ground/format.hpp"
 #include "ground/motion/terminal_plot.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 
@@ -180,7 +181,7 @@ int motion(const MotionArguments& arguments) {
   if (!arguments.output.empty()) {
     make_folder(arguments.output, "--output");
     const std::string page = (std::filesystem::path(arguments.output) / "motion.html").string();
-    write_text_file(page, page_of(arguments.trajectory, axes, broken));
+    write_page(page, page_of(arguments.trajectory, axes, broken));
     std::fprintf(stderr, "page written: %s\n", page.c_str());
   }
   for (const std::string& sentence : broken)

@@ -8,13 +8,12 @@
 #include <system_error>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/page/chart_style.hpp"
 
 namespace omma::ground {
 namespace {
 
 constexpr std::string_view kStyle = R"(
-:root{--ink:#1b2430;--soft:#667386;--line:#d9dfe7;--paper:#fbfcfd;--card:#fff;--a:#0b6bcb;--b:#c2570c;--band:#0b6bcb22;--out:#c81e3a}
-@media(prefers-color-scheme:dark){:root{--ink:#e6ebf2;--soft:#93a1b5;--line:#2b3645;--paper:#0f141b;--card:#161d27;--a:#6db3ff;--b:#ffa75e;--band:#6db3ff2b;--out:#ff6b81}}
 *{box-sizing:border-box}body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.45 system-ui,sans-serif}
 main{max-width:1360px;margin:0 auto;padding:28px 24px 60px}h1{font-size:26px;margin:0}h2{font-size:18px;margin:34px 0 10px}
 p.lead{color:var(--soft);margin:4px 0 20px}.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:12px}
@@ -22,16 +21,11 @@ p.lead{color:var(--soft);margin:4px 0 20px}.figures{display:grid;grid-template-c
 .figure b{display:block;font-size:25px;font-weight:600;letter-spacing:-.01em}.figure span{color:var(--soft);font-size:13px}
 .charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(340px,100%),1fr));gap:14px}
 .charts svg,img{width:100%;background:var(--card);border:1px solid var(--line);border-radius:8px}.charts svg{padding:8px}
-svg .title{font:600 13px system-ui;fill:var(--ink)}svg .unit,svg .tick{font:11px system-ui;fill:var(--soft);font-weight:400}
-svg .grid{stroke:var(--line)}svg .band{fill:var(--band)}svg .in{fill:var(--a)}svg .out{fill:var(--out)}
-svg .line{fill:none;stroke-width:1.6}svg .line.a{stroke:var(--a)}svg .line.b{stroke:var(--b)}
-svg .line.faint{stroke-dasharray:3 3;opacity:.75}svg .label{font:11px system-ui}svg .label.a{fill:var(--a)}svg .label.b{fill:var(--b)}
 table{border-collapse:collapse;background:var(--card);border:1px solid var(--line);border-radius:8px}
 table.wide{width:100%}td,th{padding:5px 14px;text-align:right;border-top:1px solid var(--line);font-variant-numeric:tabular-nums}
 td:first-child,th:first-child{text-align:left}th{color:var(--soft);font-weight:500}figure{margin:0 0 18px}
 figcaption{color:var(--soft);font-size:13px;margin-top:4px}.scroll{overflow-x:auto}.note{color:var(--soft);font-size:13px;max-width:90ch}
-svg .point{stroke:none}svg .point.a{fill:var(--a)}svg .point.b{fill:var(--b)}svg .c{stroke:#2e8b57;color:#2e8b57}svg .point.c,svg .label.c{fill:#2e8b57;stroke:none}svg .line.c{stroke:#2e8b57}
-svg.zoomed{cursor:grab;touch-action:none}@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--card:#fff;--a:#0b6bcb;--b:#c2570c}figure,svg,.figure,tr{break-inside:avoid}h2{break-after:avoid}
+svg.zoomed{cursor:grab;touch-action:none}@media print{:root{--ink:#000;--soft:#444;--line:#bbb;--paper:#fff;--card:#fff;--a:#0b6bcb;--b:#c2570c;--c:#2e8b57;--out:#c81e3a}figure,svg,.figure,tr{break-inside:avoid}h2{break-after:avoid}
 main{max-width:none;padding:0}body{font-size:10pt}.charts{grid-template-columns:1fr 1fr}.figures{grid-template-columns:repeat(4,1fr)}.figure b{font-size:15pt}
 .scroll{overflow:visible}td,th{padding:3px 8px}img{max-height:180mm;object-fit:contain}}
 @media(max-width:600px){main{padding:18px 12px 40px}td,th{padding:5px 6px}table{font-size:13px}.figures{grid-template-columns:1fr 1fr}.figure b{font-size:21px}}
@@ -49,6 +43,18 @@ s.addEventListener('pointerdown',e=>{if(s.classList.contains('zoomed'))d=at(e)})
 s.addEventListener('pointermove',e=>{if(!d)return;const p=at(e);b[0]-=p[0]-d[0];b[1]-=p[1]-d[1];show()});
 addEventListener('keydown',e=>{if(e.key==='Escape'){b=all.split(' ').map(Number);show()}})});
 )";
+
+std::string colour_variables(std::string_view PageColour::*shade) {
+  std::string css = ":root{";
+  for (const PageColour& colour : kPageColours)
+    css += "--" + std::string(colour.name) + ":" + std::string(colour.*shade) + ";";
+  return css + "}\n";
+}
+
+std::string style() {
+  return colour_variables(&PageColour::light) + "@media(prefers-color-scheme:dark){" +
+         colour_variables(&PageColour::dark) + "}" + std::string(kChartRules) + std::string(kStyle);
+}
 
 std::string base64(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -70,8 +76,8 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 std::string page_head(const std::string& title, const std::string& heading, const std::string& lead) {
   return "<!doctype html><html lang='en'><meta charset='utf-8'><meta name='viewport' "
          "content='width=device-width'><title>" +
-         title + "</title><style>" + std::string(kStyle) + "</style><main><h1>" + heading +
-         "</h1><p class='lead'>" + lead + "</p>";
+         title + "</title><style>" + style() + "</style><main><h1>" + heading + "</h1><p class='lead'>" +
+         lead + "</p>";
 }
 
 std::string page_end() {

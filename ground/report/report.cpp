@@ -12,6 +12,7 @@
 #include "components/telemetry/topics.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/format.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/report/report_page.hpp"
 #include "ground/report/report_pictures.hpp"
 
@@ -132,7 +133,7 @@ int report(const Arguments& arguments) {
   for (const ReportPicture& picture : content.pictures)
     write_bytes((output / picture.file).string(), picture.png);
   write_text(output / "report.json", report_json(content));
-  write_text(output / "report.html", report_page(content));
+  write_page((output / "report.html").string(), report_page(content));
   std::fputs(report_text(content).c_str(), stdout);
   std::printf("report     %s\n", (output / "report.html").string().c_str());
   return 0;

@@ -9,6 +9,7 @@
 #include "components/catalogue/star_catalogue.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "ground/format.hpp"
+#include "ground/page/chart_pictures.hpp"
 #include "ground/page/page.hpp"
 #include "ground/page/xy_chart.hpp"
 #include "ground/stars/sky_picture.hpp"
@@ -149,7 +150,7 @@ int stars(const StarsArguments& arguments) {
       sky_picture(catalogue.stars(), kPictureMagnitude, kPictureWidth).png();
   write_bytes((folder / "sky.png").string(), sky);
   write_text_file((folder / "stars.json").string(), json_of(counts));
-  write_text_file((folder / "stars.html").string(), page_of(catalogue.stars(), arguments, counts, sky));
+  write_page((folder / "stars.html").string(), page_of(catalogue.stars(), arguments, counts, sky));
   std::fprintf(stderr, "page written: %s\n", (folder / "stars.html").c_str());
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/exposure.hpp"
 #include "sim/star_colour.hpp"
 #include "sim/stray_light.hpp"
 
@@ -20,12 +21,6 @@ CameraRenderer::CameraRenderer(const Scenario& scenario, std::span<const SkyStar
   if (view.sensor().response.empty()) return;
   for (const SkyStar& star : stars)
     star_factors_.push_back(static_cast<float>(colours_(star_colour(star.hr))));
-}
-
-// The instants drawn lie evenly about the midpoint.
-double CameraRenderer::drawn_time(std::uint64_t frame, int sample) const {
-  const Sensor& sensor = view_.sensor();
-  return scenario_.time_of(frame) + sensor.exposure * ((sample + 0.5) / sensor.blur_samples - 0.5);
 }
 
 CameraTurn CameraRenderer::turn_of(const SceneInstant& instant) const {
@@ -50,7 +45,7 @@ void CameraRenderer::draw(std::uint64_t frame) {
   std::vector<SceneInstant> drawn;
   drawn.reserve(static_cast<std::size_t>(view_.sensor().blur_samples));
   for (int k = 0; k < view_.sensor().blur_samples; ++k)
-    drawn.push_back(scene_at(scenario_, drawn_time(frame, k)));
+    drawn.push_back(scene_at(scenario_, exposure_instant(view_.sensor(), scenario_.time_of(frame), k)));
 
   SkyView view;
   view.midpoint = turn_of(midpoint);

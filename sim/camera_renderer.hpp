@@ -34,7 +34,6 @@ class CameraRenderer {
   void read_out(std::span<std::uint16_t> grey) const;
 
  private:
-  double drawn_time(std::uint64_t frame, int sample) const;
   CameraTurn turn_of(const SceneInstant& instant) const;
   std::optional<Sunlight> sunlight(const SkyScene& sky, const SkyView& view) const;
   void add_background(const SkyScene& sky, const SkyView& view);

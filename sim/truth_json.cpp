@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "sim/exposure.hpp"
+
 namespace omma::sim {
 namespace {
 
@@ -144,6 +146,19 @@ Json card_json(const Card& card, const std::string& target_file) {
   return json;
 }
 
+/// What the images of one frame set show of a rig that does not turn evenly.
+Json exposures(const Scenario& scenario, double time) {
+  Json list = Json::array();
+  for (std::size_t camera = 0; camera < scenario.rig.cameras.size(); ++camera) {
+    const ExposureShift shift = exposure_shift(scenario, camera, time);
+    Json bodies = Json::array();
+    for (const Vector6d& body : shift.bodies)
+      bodies.push_back({{"turn_rad", xyz(body.head<3>())}, {"move_m", xyz(body.tail<3>())}});
+    list.push_back({{"turn_rad", xyz(shift.turn)}, {"bodies", bodies}});
+  }
+  return list;
+}
+
 /// Where the rig is and what is about it, in the rig's axes; directions before refraction.
 void add_surroundings(const Scenario& scenario, const SceneInstant& scene, double time, Json& line) {
   const SkyScene sky = sky_scene_at(scenario, time);
@@ -167,6 +182,7 @@ void add_surroundings(const Scenario& scenario, const SceneInstant& scene, doubl
                         {"tilt_rad", angles.tilt[p]}});
     }
     line["gimbal"] = gimbal;
+    line["exposures"] = exposures(scenario, time);
   }
   if (scenario.ground) line["up_rig"] = xyz(scene.up_rig);
   if (sky.sun) line["sun_rig"] = xyz(scene.rig_from_j2000 * sky.sun->direction);

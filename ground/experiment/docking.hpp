@@ -17,7 +17,8 @@ struct DockingTrial {
   AttitudeEvaluation attitude;
   PoseEvaluation pose;  ///< of the mission's first body
   PairCheck pairs;
-  double duration = 0;  ///< [s]
+  bool exposures_told = false;  ///< errors are told without the exposures' mean as well
+  double duration = 0;          ///< [s]
   Reference reference;
   std::optional<PlatformMatch> platform;  ///< where the platform's motion stood in for the truth
 };
@@ -25,14 +26,17 @@ struct DockingTrial {
 /// @throws InputError where the mission has no body or its pose was never found
 DockingTrial docking_trial(const ChainRun& run);
 
-/// Root mean square of each trial and how it spreads over trials, per axis: rotation x y z [rad], position x
-/// y z [m].
+/// The card's rotation x y z [rad], its position x y z [m], and the rig's attitude x y z [rad].
+using DockingAxes = Eigen::Matrix<double, 9, 1>;
+
+/// Root mean square of each trial and how it spreads over trials, per axis.
 struct TrialSpread {
-  std::vector<Vector6d> rms;  ///< of each trial
-  Vector6d mean = Vector6d::Zero();
-  Vector6d deviation = Vector6d::Zero();           ///< between trials
-  Vector6d bound = Vector6d::Zero();               ///< rms of the bound over all trials
-  Vector6d expected_deviation = Vector6d::Zero();  ///< that chance makes: rms / √(2 n), n frame sets a trial
+  std::vector<DockingAxes> rms;  ///< of each trial
+  DockingAxes mean = DockingAxes::Zero();
+  DockingAxes deviation = DockingAxes::Zero();  ///< between trials
+  DockingAxes bound = DockingAxes::Zero();      ///< rms of the bound over all trials
+  DockingAxes expected_deviation =
+      DockingAxes::Zero();  ///< that chance makes: rms / √(2 n), n frame sets a trial
 };
 TrialSpread trial_spread(const std::vector<DockingTrial>& trials);
 

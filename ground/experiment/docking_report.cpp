@@ -81,6 +81,20 @@ std::string charts(const DockingTrial& t) {
   return "<div class='charts'>" + html + "</div>";
 }
 
+// What is left of the errors when the exposures' mean is taken out.
+std::string exposure_text(const DockingTrial& t) {
+  std::string text = "exposures        mean attitude less the midpoint's, rms";
+  for (int axis = 0; axis < 3; ++axis) text += format(" %.1f", t.attitude.shift_rms[axis] / kArcsec);
+  text += "\"; the rest";
+  for (int axis = 0; axis < 3; ++axis) text += format(" %.1f", t.attitude.rest_rms[axis] / kArcsec);
+  text += "\",";
+  for (int axis = 0; axis < 3; ++axis)
+    text += format(" %.2f", ratio(t.attitude.rest_rms[axis], t.attitude.bound_rms[axis]));
+  return text +
+         format(" times the bound\n                 NEES of the rest: pose %.2f of 6, attitude %.2f of 3\n",
+                t.pose.rest_nees.mean, t.attitude.rest_nees.mean);
+}
+
 // The clock's offset and the mounting, which are found from the motion and no part of the errors.
 std::string platform_text(const PlatformMatch& p) {
   std::string text;
@@ -116,9 +130,13 @@ std::string motion_text(const MotionEvaluation& motion) {
 DockingTrial docking_trial(const ChainRun& run) {
   if (run.evaluation.poses.empty())
     throw InputError("mission", 0, "body", "at least one body, whose pose is looked for", "none");
-  DockingTrial trial{run.evaluation.attitude, run.evaluation.poses.front(),
-                     run.evaluation.pairs,    run.evaluation.duration,
-                     run.reference,           std::nullopt};
+  DockingTrial trial{run.evaluation.attitude,
+                     run.evaluation.poses.front(),
+                     run.evaluation.pairs,
+                     run.evaluation.exposures_told,
+                     run.evaluation.duration,
+                     run.reference,
+                     std::nullopt};
   if (trial.pose.points.empty())
     throw InputError("flight.mcap", 0, trial.pose.body, "at least one pose", "none found");
   return trial;
@@ -153,6 +171,7 @@ std::string docking_text(const DockingTrial& t) {
   text += format("NEES             pose %.2f of 6 (%.2f to %.2f), attitude %.2f of 3 (%.2f to %.2f)\n",
                  t.pose.nees.mean, t.pose.nees.low, t.pose.nees.high, t.attitude.nees.mean,
                  t.attitude.nees.low, t.attitude.nees.high);
+  if (t.exposures_told) text += exposure_text(t);
   if (t.platform) text += platform_text(*t.platform);
   return text + t.reference.pairs_text("pairings         ", t.pairs);
 }
@@ -185,6 +204,11 @@ std::string docking_json(const DockingTrial& t) {
       {"bound_rms_arcsec", three(t.attitude.bound_rms, 0, kArcsec)},
       {"nees",
        {{"mean", t.attitude.nees.mean}, {"low", t.attitude.nees.low}, {"high", t.attitude.nees.high}}}};
+  if (t.exposures_told)
+    json["exposures"] = {{"attitude_shift_rms_arcsec", three(t.attitude.shift_rms, 0, kArcsec)},
+                         {"attitude_rest_rms_arcsec", three(t.attitude.rest_rms, 0, kArcsec)},
+                         {"attitude_rest_nees", t.attitude.rest_nees.mean},
+                         {"pose_rest_nees", t.pose.rest_nees.mean}};
   if (t.platform)
     json["platform"] = {{"by_attitude", match_json(t.platform->attitude)},
                         {"by_pose", match_json(t.platform->pose)}};
@@ -220,6 +244,7 @@ std::string docking_page(const DockingTrial& t, const std::vector<RigPicture>& p
   const std::string bound = t.reference.bound_name();
   html += "<h2>Beside the dissertation</h2>" +
           table({"error", "rms here", bound, "rms / " + bound, "dissertation"}, table_rows(t));
+  if (t.exposures_told) html += "<h2>Uneven motion</h2><pre>" + escaped(exposure_text(t)) + "</pre>";
   if (t.platform) html += "<h2>The platform</h2><pre>" + escaped(platform_text(*t.platform)) + "</pre>";
   html += "<h2>Errors, with the estimate's own 3-sigma envelope</h2>" + charts(t) + "<h2>Imagery</h2>";
   if (!panorama.empty())

@@ -14,21 +14,46 @@ namespace omma::ground {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr const char* kNames[6] = {"rotation x", "rotation y", "rotation z",
-                                   "position x", "position y", "position z"};
+constexpr int kAxes = DockingAxes::RowsAtCompileTime;
+constexpr const char* kNames[kAxes] = {"rotation x", "rotation y", "rotation z", "position x", "position y",
+                                       "position z", "attitude x", "attitude y", "attitude z"};
 
 double unit(int axis) {
-  return axis < 3 ? kDegree : 1e-3;
+  if (axis < 3) return kDegree;
+  return axis < 6 ? 1e-3 : kDegree / 3600;
 }
 const char* unit_name(int axis) {
-  return axis < 3 ? "deg" : "mm";
+  if (axis < 3) return "deg";
+  return axis < 6 ? "mm" : "arcsec";
 }
 
-std::vector<double> in_units(const Vector6d& v) {
+DockingAxes rms_of(const DockingTrial& t) {
+  DockingAxes rms;
+  rms << t.pose.rms, t.attitude.rms;
+  return rms;
+}
+DockingAxes bound_of_trial(const DockingTrial& t) {
+  DockingAxes bound;
+  bound << t.pose.bound_rms, t.attitude.bound_rms;
+  return bound;
+}
+
+std::vector<double> in_units(const DockingAxes& v) {
   std::vector<double> values;
-  values.reserve(6);
-  for (int axis = 0; axis < 6; ++axis) values.push_back(v[axis] / unit(axis));
+  values.reserve(kAxes);
+  for (int axis = 0; axis < kAxes; ++axis) values.push_back(v[axis] / unit(axis));
   return values;
+}
+
+// How far the rms is from the bound, on the mean of all trials, and how well that is known.
+struct OverTheBound {
+  double ratio = 0;
+  double sigma = 0;
+};
+OverTheBound over_the_bound(const TrialSpread& s, int axis) {
+  if (!(s.bound[axis] > 0)) return {};
+  return {s.mean[axis] / s.bound[axis],
+          s.deviation[axis] / s.bound[axis] / std::sqrt(static_cast<double>(s.rms.size()))};
 }
 
 // Points with many near them are drawn last and in the other colour: the density of the dissertation's
@@ -70,13 +95,13 @@ TrialSpread trial_spread(const std::vector<DockingTrial>& trials) {
   const auto count = static_cast<double>(trials.size());
   double frames = 0;
   for (const DockingTrial& t : trials) {
-    spread.rms.push_back(t.pose.rms);
-    spread.mean += t.pose.rms / count;
-    spread.bound += t.pose.bound_rms.cwiseAbs2() / count;
+    spread.rms.push_back(rms_of(t));
+    spread.mean += spread.rms.back() / count;
+    spread.bound += bound_of_trial(t).cwiseAbs2() / count;
     frames += double(t.pose.points.size()) / count;
   }
   spread.bound = spread.bound.cwiseSqrt();
-  for (const Vector6d& rms : spread.rms) spread.deviation += (rms - spread.mean).cwiseAbs2();
+  for (const DockingAxes& rms : spread.rms) spread.deviation += (rms - spread.mean).cwiseAbs2();
   if (trials.size() > 1) spread.deviation = (spread.deviation / (count - 1)).cwiseSqrt();
   spread.expected_deviation = spread.mean / std::sqrt(2 * std::max(1.0, frames));
   return spread;
@@ -84,34 +109,44 @@ TrialSpread trial_spread(const std::vector<DockingTrial>& trials) {
 
 std::string repetition_text(const std::vector<DockingTrial>& trials) {
   const TrialSpread s = trial_spread(trials);
-  std::string text = "trial  rotation x, y, z [deg]        position x, y, z [mm]        of range [%]  NEES\n";
+  std::string text =
+      "trial  rotation x, y, z [deg]      position x, y, z [mm]       attitude x, y, z [\"]      of range "
+      "[%]  NEES\n";
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const std::vector<double> v = in_units(s.rms[i]);
-    text += format("%5zu  %8.4f %8.4f %8.4f  %8.4f %8.4f %8.4f  %12.4f  %6.2f\n", i + 1, v[0], v[1], v[2],
-                   v[3], v[4], v[5], 100 * trials[i].pose.position_part.rms, trials[i].pose.nees.mean);
+    text += format("%5zu  %8.4f %8.4f %8.4f  %8.4f %8.4f %8.4f  %8.2f %8.2f %8.2f  %8.4f  %6.2f\n", i + 1,
+                   v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8],
+                   100 * trials[i].pose.position_part.rms, trials[i].pose.nees.mean);
   }
-  const auto line = [&](const char* name, const Vector6d& x) {
+  const auto line = [&](const char* name, const DockingAxes& x) {
     const std::vector<double> v = in_units(x);
-    text += format("%5s  %8.4f %8.4f %8.4f  %8.4f %8.4f %8.4f\n", name, v[0], v[1], v[2], v[3], v[4], v[5]);
+    text += format("%5s  %8.4f %8.4f %8.4f  %8.4f %8.4f %8.4f  %8.2f %8.2f %8.2f\n", name, v[0], v[1], v[2],
+                   v[3], v[4], v[5], v[6], v[7], v[8]);
   };
   line("mean", s.mean);
   line(trials.front().reference.knows_spots ? "bound" : "own", s.bound);
   line("sigma", s.deviation);
   line("chance", s.expected_deviation);
+  text += format("rms / %s of all trials:\n", trials.front().reference.bound_name());
+  for (int axis = 0; axis < kAxes; ++axis) {
+    const OverTheBound over = over_the_bound(s, axis);
+    text += format("%s %.3f +- %.3f%s", kNames[axis], over.ratio, over.sigma, axis % 3 == 2 ? "\n" : ", ");
+  }
   return text;
 }
 
 std::string repetition_json(const std::vector<DockingTrial>& trials) {
   const TrialSpread s = trial_spread(trials);
-  nlohmann::ordered_json json{{"experiment", "repetition"},
-                              {"recorded", trials.front().reference.recorded},
-                              {"bound_from", trials.front().reference.bound_name()},
-                              {"axes", kNames},
-                              {"units", {"deg", "deg", "deg", "mm", "mm", "mm"}}};
+  nlohmann::ordered_json json{
+      {"experiment", "repetition"},
+      {"recorded", trials.front().reference.recorded},
+      {"bound_from", trials.front().reference.bound_name()},
+      {"axes", kNames},
+      {"units", {"deg", "deg", "deg", "mm", "mm", "mm", "arcsec", "arcsec", "arcsec"}}};
   json["trials"] = nlohmann::ordered_json::array();
   for (const DockingTrial& t : trials) {
-    json["trials"].push_back({{"rms", in_units(t.pose.rms)},
-                              {"bound_rms", in_units(t.pose.bound_rms)},
+    json["trials"].push_back({{"rms", in_units(rms_of(t))},
+                              {"bound_rms", in_units(bound_of_trial(t))},
                               {"position_rms_of_range", t.pose.position_part.rms},
                               {"solved", t.pose.points.size()},
                               {"frames", t.pose.frames},
@@ -120,6 +155,11 @@ std::string repetition_json(const std::vector<DockingTrial>& trials) {
   }
   json["mean"] = in_units(s.mean);
   json["bound"] = in_units(s.bound);
+  for (int axis = 0; axis < kAxes; ++axis) {
+    const OverTheBound over = over_the_bound(s, axis);
+    json["rms_over_bound"].push_back(over.ratio);
+    json["rms_over_bound_sigma"].push_back(over.sigma);
+  }
   json["deviation_between_trials"] = in_units(s.deviation);
   json["deviation_that_chance_makes"] = in_units(s.expected_deviation);
   return json.dump(2) + "\n";
@@ -128,22 +168,22 @@ std::string repetition_json(const std::vector<DockingTrial>& trials) {
 std::string repetition_page(const std::vector<DockingTrial>& trials) {
   const TrialSpread s = trial_spread(trials);
   std::string figures;
-  for (int axis = 0; axis < 6; ++axis) {
+  for (int axis = 0; axis < kAxes; ++axis) {
     figures +=
-        figure(format("%.3f %s", s.mean[axis] / unit(axis), axis < 3 ? "&deg;" : "mm"),
+        figure(format("%.3g %s", s.mean[axis] / unit(axis), unit_name(axis)),
                format("%s: mean rms of %zu trials, %.2f times the %s; between trials &plusmn; %.1f %% where "
                       "chance makes %.1f %%",
-                      kNames[axis], trials.size(), s.bound[axis] > 0 ? s.mean[axis] / s.bound[axis] : 0,
+                      kNames[axis], trials.size(), over_the_bound(s, axis).ratio,
                       trials.front().reference.bound_name(), 100 * s.deviation[axis] / s.mean[axis],
                       100 * s.expected_deviation[axis] / s.mean[axis]));
   }
   std::string charts;
-  for (int axis = 0; axis < 6; ++axis) {
+  for (int axis = 0; axis < kAxes; ++axis) {
     XySeries rms{"rms", "a", Mark::kPoints, {}};
     XySeries bound{trials.front().reference.bound_name(), "b", Mark::kDashed, {}};
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      rms.points.emplace_back(i + 1, trials[i].pose.rms[axis] / unit(axis));
-      bound.points.emplace_back(i + 1, trials[i].pose.bound_rms[axis] / unit(axis));
+      rms.points.emplace_back(i + 1, s.rms[i][axis] / unit(axis));
+      bound.points.emplace_back(i + 1, bound_of_trial(trials[i])[axis] / unit(axis));
     }
     const double top = 1.5 * s.mean[axis] / unit(axis);
     charts += xy_chart({kNames[axis],

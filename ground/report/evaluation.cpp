@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "fsw/kernel/input_error.hpp"
+#include "ground/report/exposure_shift.hpp"
 
 namespace omma::ground {
 namespace {
@@ -105,6 +106,8 @@ AttitudeError attitude_error(const Judge& judge, const omma_Attitude& sample) {
   const Eigen::Matrix3d covariance = Eigen::Map<const Eigen::Matrix3d>(sample.covariance_rad2);
   point.sigma = covariance.diagonal().cwiseSqrt();
   point.nees = squared_in_sigmas<3>(point.error, covariance);
+  point.shift = attitude_shift(judge.mission.rig, judge.truth, judge.used);
+  point.rest_nees = squared_in_sigmas<3>(point.error - point.shift, covariance);
   point.bound =
       judge.bound == BoundFrom::kEstimate
           ? point.sigma
@@ -122,8 +125,9 @@ void check_protection(const Eigen::Vector3d& error, const omma_Vector3& level, P
   }
 }
 
-PoseError pose_error(const Judge& judge, const TargetBody& body, const Pose& rig_from_body,
+PoseError pose_error(const Judge& judge, const TargetBody& body, std::size_t truth_index,
                      const omma_RelativePose& sample) {
+  const Pose& rig_from_body = judge.truth.bodies[truth_index].rig_from_body;
   static const SpotChoice kAll = [](const TruthSpot&) { return true; };
   PoseError point;
   point.frame = sample.frame;
@@ -136,6 +140,8 @@ PoseError pose_error(const Judge& judge, const TargetBody& body, const Pose& rig
   point.sigma = covariance.diagonal().cwiseSqrt();
   point.nees = squared_in_sigmas<6>(point.error, covariance);
   const Rig& rig = judge.mission.rig;
+  point.shift = pose_shift(rig, judge.truth, judge.used, body, truth_index);
+  point.rest_nees = squared_in_sigmas<6>(point.error - point.shift, covariance);
   point.bound =
       judge.bound == BoundFrom::kEstimate
           ? point.sigma
@@ -182,11 +188,11 @@ auto rms_over(const Points& points, Of&& of) {
   return Vector((sum / std::max(count, 1.0)).cwiseSqrt());
 }
 
-template <class Points>
-std::vector<double> nees_of(const Points& points) {
+template <class Points, class Point>
+std::vector<double> nees_of(const Points& points, double Point::*nees) {
   std::vector<double> samples;
   samples.reserve(points.size());
-  for (const auto& point : points) samples.push_back(point.nees);
+  for (const Point& point : points) samples.push_back(point.*nees);
   return samples;
 }
 
@@ -196,7 +202,11 @@ void sum_up(AttitudeEvaluation& evaluation) {
   evaluation.rms = rms_over(points, [](const AttitudeError& p) { return p.error; });
   evaluation.bound_rms = rms_over(points, [](const AttitudeError& p) { return p.bound; });
   evaluation.used_bound_rms = rms_over(points, [](const AttitudeError& p) { return p.used_bound; });
-  evaluation.nees = mean_nees(nees_of(points), 3);
+  evaluation.nees = mean_nees(nees_of(points, &AttitudeError::nees), 3);
+  evaluation.shift_rms = rms_over(points, [](const AttitudeError& p) { return p.shift; });
+  evaluation.rest_rms =
+      rms_over(points, [](const AttitudeError& p) { return Eigen::Vector3d(p.error - p.shift); });
+  evaluation.rest_nees = mean_nees(nees_of(points, &AttitudeError::rest_nees), 3);
 }
 
 void sum_up(PoseEvaluation& evaluation) {
@@ -217,7 +227,10 @@ void sum_up(PoseEvaluation& evaluation) {
   const Eigen::Vector2d used_bound = lengths([](const PoseError& p) { return p.used_bound; });
   evaluation.rotation = {rms[0], bound[0], used_bound[0]};
   evaluation.position_part = {rms[1], bound[1], used_bound[1]};
-  evaluation.nees = mean_nees(nees_of(points), 6);
+  evaluation.nees = mean_nees(nees_of(points, &PoseError::nees), 6);
+  evaluation.shift_rms = rms_over(points, [](const PoseError& p) { return p.shift; });
+  evaluation.rest_rms = rms_over(points, [](const PoseError& p) { return Vector6d(p.error - p.shift); });
+  evaluation.rest_nees = mean_nees(nees_of(points, &PoseError::rest_nees), 6);
 }
 
 void sum_up(MotionEvaluation& evaluation) {
@@ -270,6 +283,7 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
   Evaluation evaluation;
   evaluation.duration = seconds(truth.back());
   evaluation.attitude.frames = truth.size();
+  evaluation.exposures_told = !truth.front().exposures.empty();
   evaluation.poses = bodies_to_judge(mission, truth);
   const SpotChoice counts = detectable(mission.least_snr);
   static const Dots kNoDots;
@@ -303,9 +317,10 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
       throw InputError(log_path, 0, "relative_pose", std::to_string(mission.bodies.size()) + " bodies",
                        "body " + std::to_string(sample.body));
     PoseEvaluation& pose = evaluation.poses[sample.body];
-    for (const TruthBody& body : judge.truth.bodies) {
-      if (!sample.valid || sample.state == omma_SOLVE_UNOBSERVABLE || body.name != pose.body) continue;
-      pose.points.push_back(pose_error(judge, mission.bodies[sample.body], body.rig_from_body, sample));
+    for (std::size_t b = 0; b < judge.truth.bodies.size(); ++b) {
+      if (!sample.valid || sample.state == omma_SOLVE_UNOBSERVABLE || judge.truth.bodies[b].name != pose.body)
+        continue;
+      pose.points.push_back(pose_error(judge, mission.bodies[sample.body], b, sample));
       const Vector6d& error = pose.points.back().error;
       check_protection(error.head<3>(), sample.integrity.protection_rad, pose.protection);
       check_protection(error.tail<3>(), sample.integrity.protection_m, pose.protection);

@@ -25,6 +25,8 @@ struct AttitudeError {
   Eigen::Vector3d bound = Eigen::Vector3d::Zero();
   Eigen::Vector3d used_bound = Eigen::Vector3d::Zero();  ///< bound of the spots the solution was made of
   double nees = 0;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< the part of the error that is the exposures' mean
+  double rest_nees = 0;                             ///< without it
 };
 
 /// Errors against the protection levels they were published with, axis by axis.
@@ -42,6 +44,9 @@ struct AttitudeEvaluation {
   Eigen::Vector3d used_bound_rms = Eigen::Vector3d::Zero();  ///< [rad]
   MeanNees nees;
   ProtectionCheck protection;
+  Eigen::Vector3d shift_rms = Eigen::Vector3d::Zero();  ///< [rad]
+  Eigen::Vector3d rest_rms = Eigen::Vector3d::Zero();   ///< of the errors without the shift [rad]
+  MeanNees rest_nees;
 };
 
 struct PoseError {
@@ -53,6 +58,8 @@ struct PoseError {
   Vector6d bound = Vector6d::Zero();
   Vector6d used_bound = Vector6d::Zero();
   double nees = 0;
+  Vector6d shift = Vector6d::Zero();  ///< the part of the error that is the exposures' mean
+  double rest_nees = 0;               ///< without it
 };
 
 /// Of three axes together: √ of the mean squared length.
@@ -85,6 +92,9 @@ struct PoseEvaluation {
   MeanNees nees;
   ProtectionCheck protection;
   MotionEvaluation motion;
+  Vector6d shift_rms = Vector6d::Zero();
+  Vector6d rest_rms = Vector6d::Zero();  ///< of the errors without the shift
+  MeanNees rest_nees;
 };
 
 /// Spots paired, against where the truth has the star or target of that name.
@@ -109,6 +119,7 @@ struct Evaluation {
   std::vector<PoseEvaluation> poses;  ///< in the order of the mission's bodies
   PairCheck pairs;
   std::vector<SpotCount> counts;
+  bool exposures_told = false;  ///< by the truth: the shifts are known (docs/algorithms/report.md)
 };
 
 /// Where the bounds of the points come from.

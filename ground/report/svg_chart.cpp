@@ -16,11 +16,11 @@ constexpr double kRight = 12;
 constexpr double kTop = 26;
 constexpr double kBottom = 24;
 
-/// A round number (1, 2 or 5 times a power of ten) not below `value`.
+/// A round number not below `value`, that has a round half.
 double round_up(double value) {
   if (!(value > 0)) return 1;
   const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double step : {1.0, 2.0, 5.0}) {
+  for (const double step : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
     if (value <= step * power * (1 + 1e-9)) return step * power;
   }
   return 10 * power;
@@ -58,17 +58,26 @@ std::string frame(const Axes& axes, const std::string& title, const std::vector<
   return svg;
 }
 
+// Every error is shown; a rare frame set that knows little may have its envelope cut.
+double extent_of(const std::vector<ErrorPoint>& points) {
+  if (points.empty()) return 1;
+  std::vector<double> sigmas;
+  double most = 0;
+  for (const ErrorPoint& point : points) {
+    most = std::max(most, std::abs(point.error));
+    sigmas.push_back(point.sigma);
+  }
+  const auto high =
+      sigmas.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(sigmas.size() - 1));
+  std::nth_element(sigmas.begin(), high, sigmas.end());
+  return std::max(most, 3.3 * *high);
+}
+
 }  // namespace
 
 std::string error_chart(const std::string& title, const std::string& unit,
                         const std::vector<ErrorPoint>& points, double duration) {
-  std::vector<double> extents;
-  extents.reserve(points.size());
-  for (const ErrorPoint& point : points) {
-    extents.push_back(std::max(std::abs(point.error), 3 * point.sigma));
-  }
-  std::sort(extents.begin(), extents.end());
-  const double extent = extents.empty() ? 1 : round_up(extents.back());
+  const double extent = round_up(extent_of(points));
   const Axes axes{duration, -extent, extent};
   std::string svg = frame(axes, title + " <tspan class='unit'>[" + unit + "]</tspan>", {-extent, 0, extent});
   if (!points.empty()) {

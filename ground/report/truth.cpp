@@ -34,6 +34,7 @@ class Record {
     if (!value.is_string()) fail(field, "a text", value);
     return value.get<std::string>();
   }
+  bool has(const char* field) const { return json_.contains(field); }
   template <int kCount>
   Eigen::Matrix<double, kCount, 1> numbers(const char* field) const {
     const std::string expected = std::to_string(kCount) + " numbers";
@@ -111,6 +112,20 @@ TruthSpot read_spot(const Record& record, int cameras) {
   return spot;
 }
 
+void read_exposures(const Record& record, int cameras, TruthFrame& frame) {
+  record.each("exposures", [&](const Record& exposure) {
+    TruthExposure& one = frame.exposures.emplace_back();
+    one.turn = exposure.numbers<3>("turn_rad");
+    exposure.each("bodies", [&](const Record& body) {
+      one.bodies.emplace_back() << body.numbers<3>("turn_rad"), body.numbers<3>("move_m");
+    });
+    if (one.bodies.size() != frame.bodies.size())
+      exposure.fail("bodies", "one for each body of the frame", one.bodies.size());
+  });
+  if (frame.exposures.size() != static_cast<std::size_t>(cameras))
+    record.fail("exposures", "one for each camera", frame.exposures.size());
+}
+
 TruthFrame read_frame(const Record& record, int cameras) {
   TruthFrame frame;
   const std::int64_t number = record.integer("frame");
@@ -125,6 +140,7 @@ TruthFrame read_frame(const Record& record, int cameras) {
     frame.bodies.push_back(
         {body.text("name"), {pose.rotation("quaternion_xyzw"), pose.numbers<3>("translation_m")}});
   });
+  if (record.has("exposures")) read_exposures(record, cameras, frame);
   record.each("spots", [&](const Record& spot) { frame.spots.push_back(read_spot(spot, cameras)); });
   return frame;
 }

@@ -30,6 +30,12 @@ struct TruthBody {
   Pose rig_from_body;
 };
 
+/// What one camera's image shows of an uneven motion: the mean of its exposure less the midpoint, rig axes.
+struct TruthExposure {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();  ///< [rad]
+  std::vector<Vector6d> bodies;                    ///< of the frame's bodies: turn [rad], move [m]
+};
+
 struct TruthFrame {
   std::uint64_t frame = 0;
   std::int64_t time_ns = 0;  ///< exposure midpoint, since frame 0
@@ -38,6 +44,7 @@ struct TruthFrame {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();  ///< of the rig, rig frame [rad/s]
   std::vector<TruthBody> bodies;
   std::vector<TruthSpot> spots;
+  std::vector<TruthExposure> exposures;  ///< one a camera; empty where the truth does not tell
 };
 
 /// Frame sets in rising order. @param cameras  of the rig: a spot of another camera is an error

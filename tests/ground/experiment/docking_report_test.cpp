@@ -14,6 +14,8 @@ DockingTrial trial(double rms, double bound, std::size_t frames) {
   t.pose.rms = Vector6d::Constant(rms);
   t.pose.bound_rms = Vector6d::Constant(bound);
   t.pose.points.resize(frames);
+  t.attitude.rms = Eigen::Vector3d::Constant(3 * rms);
+  t.attitude.bound_rms = Eigen::Vector3d::Constant(3 * bound);
   return t;
 }
 
@@ -24,6 +26,8 @@ TEST(TrialSpread, IsMeanAndDeviationOfTheTrials) {
   EXPECT_DOUBLE_EQ(s.deviation[3], 1);
   EXPECT_NEAR(s.bound[5], std::sqrt((0.36 + 0.64 + 0.64) / 3), 1e-12);
   EXPECT_NEAR(s.expected_deviation[1], 2 / std::sqrt(100.0), 1e-12);
+  EXPECT_DOUBLE_EQ(s.mean[8], 6);  // the attitude
+  EXPECT_DOUBLE_EQ(s.deviation[6], 3);
 }
 
 TEST(DockingTrial, OfARunWithoutABodyIsRefused) {

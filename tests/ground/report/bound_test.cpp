@@ -10,6 +10,7 @@
 
 #include "components/estimation/least_squares.hpp"
 #include "components/geometry/rig_dot.hpp"
+#include "ground/report/exposure_shift.hpp"
 
 namespace omma::ground {
 namespace {
@@ -226,6 +227,42 @@ TEST(Bound, TargetsOfAnotherBodyTellNothing) {
   const std::vector<TruthSpot> spots = spots_of(rig, body, pose);
   body.name = Name("other");
   EXPECT_TRUE(pose_information(rig, spots, body, pose, kEverySpot).isZero());
+}
+
+// Spots all over both images, and what their exposures show of an uneven turn.
+TruthFrame swung(const Rig& rig, double information_of_b) {
+  TruthFrame frame;
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
+    for (int i = 0; i < 9; ++i)
+      frame.spots.push_back(star_at(static_cast<int>(camera), {200.0 + 180 * (i % 3), 120.0 + 170 * (i / 3)},
+                                    (camera == 0 ? 1 : information_of_b) * information_of_sigma(0.1)));
+  frame.exposures = {{{1e-4, -2e-4, 3e-4}, {}}, {{-5e-4, 1e-4, 2e-4}, {}}};
+  return frame;
+}
+
+TEST(ExposureShift, FollowsTheCameraThatKnowsMost) {
+  const Rig rig = two_cameras();
+  TruthFrame frame = swung(rig, 1e-9);
+  EXPECT_LT((attitude_shift(rig, frame, frame.spots) + frame.exposures[0].turn).norm(), 1e-10);
+  frame = swung(rig, 1e9);
+  EXPECT_LT((attitude_shift(rig, frame, frame.spots) + frame.exposures[1].turn).norm(), 1e-10);
+  frame = swung(rig, 1);
+  frame.exposures[1].turn = frame.exposures[0].turn;
+  EXPECT_LT((attitude_shift(rig, frame, frame.spots) + frame.exposures[0].turn).norm(), 1e-10);
+  frame.exposures.clear();
+  EXPECT_EQ(attitude_shift(rig, frame, frame.spots), Eigen::Vector3d::Zero());
+}
+
+TEST(ExposureShift, OfABodyIsItsOwn) {
+  const Rig rig = two_cameras();
+  const TargetBody body = card();
+  TruthFrame frame;
+  frame.bodies = {{"card", {rotation_exp({3.0, 0.2, 0.1}), {0.3, 0.1, 1.2}}}};
+  frame.spots = spots_of(rig, body, frame.bodies[0].rig_from_body);
+  Vector6d move;
+  move << 1e-3, -2e-3, 1e-3, 1e-4, 2e-4, -3e-4;
+  frame.exposures = {{{}, {move}}, {{}, {move}}};
+  EXPECT_LT((pose_shift(rig, frame, frame.spots, body, 0) + move).norm(), 1e-9);
 }
 
 }  // namespace

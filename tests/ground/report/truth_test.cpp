@@ -97,6 +97,21 @@ TEST_F(Truth, NamesTheFieldThatIsWrong) {
   EXPECT_NE(refusal("[1]").find(":1: record: expected a JSON object"), std::string::npos);
 }
 
+TEST_F(Truth, MayTellTheMeanOfEachExposure) {
+  const std::string one = R"({"turn_rad":[1,2,3],"bodies":[{"turn_rad":[4,5,6],"move_m":[7,8,9]}]})";
+  const auto told = [&](const std::string& exposures) {
+    return changed(R"("spots")", R"("exposures":[)" + exposures + R"(],"spots")") + "\n";
+  };
+  const std::vector<TruthFrame> frames = read(told(one + "," + one));
+  ASSERT_EQ(frames[0].exposures.size(), 2U);
+  EXPECT_EQ(frames[0].exposures[1].turn, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(frames[0].exposures[0].bodies[0][5], 9);
+  EXPECT_NE(refusal(told(one)).find("one for each camera"), std::string::npos);
+  EXPECT_NE(refusal(told(one + R"(,{"turn_rad":[1,2,3],"bodies":[]})")).find("one for each body"),
+            std::string::npos);
+  EXPECT_NE(refusal(told(one + ",1")).find("exposures[1]"), std::string::npos);
+}
+
 TEST_F(Truth, FramesThatDoNotRiseAreRefused) {
   EXPECT_NE(refusal(kLine + "\n" + kLine).find(":2: frame: expected a number above the line before"),
             std::string::npos);

@@ -6,7 +6,9 @@
 #include <memory>
 #include <numeric>
 
+#include "components/catalogue/apparent_place.hpp"
 #include "components/catalogue/star_catalogue.hpp"
+#include "sim/faint_stars.hpp"
 
 namespace omma::sim {
 
@@ -111,7 +113,13 @@ std::vector<SkyStar> sky_of(const Scenario& scenario) {
   observer.julian_date_utc = scenario.julian_date_utc;
   const auto catalogue = std::make_unique<StarCatalogue>(
       observer, StarCatalogueParameters{static_cast<float>(scenario.faintest), 0});
-  return {catalogue->stars().begin(), catalogue->stars().end()};
+  std::vector<SkyStar> stars(catalogue->stars().begin(), catalogue->stars().end());
+  const ApparentPlace place(observer);
+  for (const CatalogueStar& star : faint_stars()) {
+    SkyStar seen{Eigen::Vector3d::Zero(), star.magnitude, star.hr};
+    if (star.magnitude <= scenario.faintest && place.direction(star, seen.direction)) stars.push_back(seen);
+  }
+  return stars;
 }
 
 }  // namespace omma::sim

@@ -121,7 +121,8 @@ struct SceneInstant {
 /// @param time  [s] since the first frame
 SceneInstant scene_at(const Scenario& scenario, double time);
 
-/// Apparent places of the stars to V = `faintest` at the scenario's epoch, none merged.
+/// Apparent places of the stars to V = `faintest` at the scenario's epoch, none merged: the Bright Star
+/// Catalogue and what it leaves out (faint_stars.hpp).
 std::vector<SkyStar> sky_of(const Scenario& scenario);
 
 }  // namespace omma::sim

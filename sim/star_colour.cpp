@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/faint_stars.hpp"
+
 namespace omma::sim {
 namespace {
 
@@ -64,6 +66,7 @@ double counted(const SpectralResponse& response, double temperature) {
 }  // namespace
 
 double star_colour(std::uint16_t hr) {
+  if (hr >= kFirstFaintStar) return faint_star_colour(hr);
   const auto* found = std::lower_bound(std::begin(kColours), std::end(kColours), hr,
                                        [](const Colour& c, std::uint16_t n) { return c.hr < n; });
   return found != std::end(kColours) && found->hr == hr ? 0.01 * found->hundredths : kUsual;

@@ -15,7 +15,8 @@ struct ResponsePoint {
 };
 using SpectralResponse = std::vector<ResponsePoint>;
 
-/// B − V of a star of the Bright Star Catalogue by its HR number; 0.6 where it tells none.
+/// B − V of a star by its HR number (0.6 where the Bright Star Catalogue tells none), or a number of
+/// faint_stars.hpp.
 double star_colour(std::uint16_t hr);
 
 /// Temperature of a star [K].

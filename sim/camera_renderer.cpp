@@ -66,7 +66,7 @@ void CameraRenderer::draw(std::uint64_t frame) {
   std::iota(far_to_near.begin(), far_to_near.end(), std::size_t{0});
   std::stable_sort(far_to_near.begin(), far_to_near.end(),
                    [&](std::size_t a, std::size_t b) { return cards[a].distance() > cards[b].distance(); });
-  for (const std::size_t c : far_to_near) cards[c].paint(electrons_);
+  for (const std::size_t c : far_to_near) cards[c].paint(cards, electrons_);
 
   list_.clear();
   add_sky(sky, view, cards);
@@ -160,7 +160,7 @@ void CameraRenderer::add_cards(std::span<const SceneInstant> drawn, const std::o
       }
       if (hidden) continue;
       const std::size_t first = list_.points.size();
-      for (const CardView& card : moved) card.add_disc(t, share, quadrature_, list_.points);
+      for (const CardView& card : moved) card.add_disc(t, share, quadrature_, cards, list_.points);
       list_.close(spot, first);
     }
   }

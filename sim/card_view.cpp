@@ -25,29 +25,53 @@ bool CardView::hides(const Eigen::Vector3d& direction, double distance) const {
 
 // Of a surface in the Sun, which does not see the camera's side of it from behind; and what light there is in
 // the shade.
-double CardView::lit_electrons(const PlateView& face, double albedo) const {
-  double electrons = albedo * camera_.surface_electrons(card_.printed->ambient);
-  if (!sunlight_) return electrons;
+FaceLight CardView::printed_light(const PlateView& face, double albedo) const {
+  FaceLight light;
+  light.lit = light.shaded = albedo * camera_.surface_electrons(card_.printed->ambient);
+  if (!sunlight_) return light;
+  light.to_sun = sunlight_->to_sun;
   const double seen_side = face.eye().z() < 0 ? -1 : 1;
   const double cosine = seen_side * (face.camera_from_face().rotation.conjugate() * sunlight_->to_sun).z();
   if (cosine > 0)
-    electrons += albedo * cosine / std::numbers::pi * sunlight_->flux * camera_.star_electrons(0);
-  return electrons;
+    light.lit += albedo * cosine / std::numbers::pi * sunlight_->flux * camera_.star_electrons(0);
+  return light;
 }
 
-double CardView::plate_electrons(const PlateView& face) const {
-  if (card_.printed) return lit_electrons(face, card_.printed->plate);
-  return camera_.surface_electrons(card_.plate_magnitude);
+// Faces of this body, and of the others, that may keep the Sun from a face.
+std::vector<const PlateView*> CardView::occluders(const PlateView& face,
+                                                  std::span<const CardView> cards) const {
+  std::vector<const PlateView*> found;
+  const auto add = [&](const CardView& card) {
+    for (const PlateView& other : card.faces_) {
+      if (&other != &face && other.stands_before(face, sunlight_->to_sun)) found.push_back(&other);
+    }
+  };
+  add(*this);
+  for (const CardView& card : cards) {
+    if (&card.card_ != &card_) add(card);
+  }
+  return found;
 }
 
-double CardView::disc_electrons(const PlateView& face) const {
-  if (card_.printed) return lit_electrons(face, card_.printed->disc);
-  return camera_.surface_electrons(card_.disc_magnitude);
+FaceLight CardView::plate_light(const PlateView& face, std::span<const CardView> cards) const {
+  if (!card_.printed) {
+    const double electrons = camera_.surface_electrons(card_.plate_magnitude);
+    return {electrons, electrons, {}, {}};
+  }
+  FaceLight light = printed_light(face, card_.printed->plate);
+  if (light.lit > light.shaded) light.occluders = occluders(face, cards);
+  return light;
 }
 
-void CardView::paint(std::vector<float>& electrons) const {
+FaceLight CardView::disc_light(const PlateView& face) const {
+  if (card_.printed) return printed_light(face, card_.printed->disc);
+  const double electrons = camera_.surface_electrons(card_.disc_magnitude);
+  return {electrons, electrons, {}, {}};
+}
+
+void CardView::paint(std::span<const CardView> cards, std::vector<float>& electrons) const {
   if (faces_.size() == 1) {
-    faces_.front().paint(plate_electrons(faces_.front()), electrons);
+    faces_.front().paint(plate_light(faces_.front(), cards), electrons);
     return;
   }
   std::vector<std::size_t> far_to_near(faces_.size());
@@ -55,7 +79,7 @@ void CardView::paint(std::vector<float>& electrons) const {
   std::stable_sort(far_to_near.begin(), far_to_near.end(),
                    [&](std::size_t a, std::size_t b) { return faces_[a].distance() > faces_[b].distance(); });
   FaceLayer layer;
-  for (const std::size_t f : far_to_near) faces_[f].join(plate_electrons(faces_[f]), layer);
+  for (const std::size_t f : far_to_near) faces_[f].join(plate_light(faces_[f], cards), layer);
   for (std::size_t i = 0; i < layer.covered.size(); ++i) {
     const float dark = camera_.dark()[i];
     electrons[i] = dark + (1 - layer.covered[i]) * (electrons[i] - dark) + layer.light[i];
@@ -91,16 +115,20 @@ bool CardView::disc_centre(std::size_t target, Eigen::Vector2d& pixel, Eigen::Ve
 // A printed disc leaves its surface's light times the solid angle dA cos γ / d² that each share of it fills;
 // a lamp its brightness from 1 m, times cosᵐ γ / d².
 void CardView::add_disc(std::size_t target, double share, const DiscQuadrature& quadrature,
-                        std::vector<PointSource>& points) const {
+                        std::span<const CardView> cards, std::vector<PointSource>& points) const {
   if (!faces_camera(target)) return;
   const PlateView& face = face_of(target);
   const double radius = 0.5 * card_.disc_diameter;
   const Eigen::Vector3d centre = on_face(target);
   const double radius_px = radius / (face.eye() - centre).norm() / camera_.camera().lens.pixel_angle();
   const bool lamp = is_lamp(target);
-  const double light =
-      lamp ? camera_.star_electrons(card_.led->magnitude)
-           : (disc_electrons(face) - plate_electrons(face)) * std::numbers::pi * radius * radius;
+  const double area = std::numbers::pi * radius * radius;
+  const FaceLight disc = disc_light(face);
+  const FaceLight plate = plate_light(face, cards);
+  const auto light_at = [&](const Eigen::Vector3d& point) {
+    if (lamp) return camera_.star_electrons(card_.led->magnitude);
+    return plate.in_shade(point) ? (disc.shaded - plate.shaded) * area : (disc.lit - plate.lit) * area;
+  };
   for (const QuadraturePoint& q : quadrature.rule(radius_px / camera_.point_spread().sigma())) {
     const Eigen::Vector3d on_disc = centre + radius * Eigen::Vector3d(q.position.x(), q.position.y(), 0);
     const Eigen::Vector3d point = face.camera_from_face() * on_disc;
@@ -112,7 +140,7 @@ void CardView::add_disc(std::size_t target, double share, const DiscQuadrature& 
     const double seen =
         q.weight * (lamp ? std::pow(cosine, card_.led->order) : cosine) / (distance * distance);
     points.push_back({static_cast<float>(pixel.x()), static_cast<float>(pixel.y()),
-                      static_cast<float>(share * light * seen * kept)});
+                      static_cast<float>(share * light_at(point) * seen * kept)});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/camera_view.hpp"
@@ -36,7 +37,8 @@ class CardView {
              double distance = std::numeric_limits<double>::infinity()) const;
 
   /// Lays the faces over the sky of `electrons` (width × height), the far ones first.
-  void paint(std::vector<float>& electrons) const;
+  /// @param cards  all of the scene, which throw shadows on each other; their order is the scenario's
+  void paint(std::span<const CardView> cards, std::vector<float>& electrons) const;
 
   /// Where the disc `target` has its centre in the image; false if it turns away, is behind another face of
   /// the body, or out of the field.
@@ -45,16 +47,17 @@ class CardView {
 
   /// Appends the disc's points of light, `share` of one exposure; a dark disc's are negative.
   void add_disc(std::size_t target, double share, const DiscQuadrature& quadrature,
-                std::vector<PointSource>& points) const;
+                std::span<const CardView> cards, std::vector<PointSource>& points) const;
 
  private:
   const PlateView& face_of(std::size_t target) const { return faces_[card_.face_of[target]]; }
   Eigen::Vector3d on_face(std::size_t target) const;
   bool faces_camera(std::size_t target) const;
   bool is_lamp(std::size_t target) const;
-  double plate_electrons(const PlateView& face) const;
-  double disc_electrons(const PlateView& face) const;
-  double lit_electrons(const PlateView& face, double albedo) const;
+  FaceLight plate_light(const PlateView& face, std::span<const CardView> cards) const;
+  FaceLight disc_light(const PlateView& face) const;
+  FaceLight printed_light(const PlateView& face, double albedo) const;
+  std::vector<const PlateView*> occluders(const PlateView& face, std::span<const CardView> cards) const;
 
   const CameraView& camera_;
   const Card& card_;

@@ -53,6 +53,41 @@ bool PlateView::hides(const Eigen::Vector3d& direction, double distance) const {
   return std::abs(hit.x()) < 0.5 * width_ && std::abs(hit.y()) < 0.5 * height_;
 }
 
+bool PlateView::shades(const Eigen::Vector3d& point, const Eigen::Vector3d& to_sun) const {
+  constexpr double kApart = 1e-6;  // [m]: a point of the face itself
+  const Eigen::Vector3d from = camera_from_face_.inverse() * point;
+  const Eigen::Vector3d ray = camera_from_face_.rotation.conjugate() * to_sun;
+  const double range = -from.z() / ray.z();
+  if (!(range > kApart) || !std::isfinite(range)) return false;
+  const Eigen::Vector3d hit = from + range * ray;
+  return std::abs(hit.x()) < 0.5 * width_ && std::abs(hit.y()) < 0.5 * height_;
+}
+
+bool PlateView::stands_before(const PlateView& other, const Eigen::Vector3d& to_sun) const {
+  constexpr double kAbove = 1e-6;  // [m]
+  const double side = (other.camera_from_face_.rotation.conjugate() * to_sun).z() < 0 ? -1 : 1;
+  const Pose other_from_face = other.camera_from_face_.inverse() * camera_from_face_;
+  for (int corner = 0; corner < 4; ++corner) {
+    const Eigen::Vector3d at(corner % 2 == 0 ? -0.5 * width_ : 0.5 * width_,
+                             corner / 2 == 0 ? -0.5 * height_ : 0.5 * height_, 0);
+    if (side * (other_from_face * at).z() > kAbove) return true;
+  }
+  return false;
+}
+
+bool FaceLight::in_shade(const Eigen::Vector3d& point) const {
+  return std::any_of(occluders.begin(), occluders.end(),
+                     [&](const PlateView* face) { return face->shades(point, to_sun); });
+}
+
+bool PlateView::covers_in_shade(const Eigen::Vector3f& ray_camera, const FaceLight& light) const {
+  if (!covers(ray_camera)) return false;
+  const Eigen::Vector3d ray = camera_from_face_.rotation.conjugate() * ray_camera.cast<double>();
+  Eigen::Vector3d point = eye_ - eye_.z() / ray.z() * ray;
+  point.z() = 0;
+  return light.in_shade(camera_from_face_ * point);
+}
+
 bool PlateView::covers(const Eigen::Vector3f& ray_camera) const {
   const Eigen::Vector3f ray = face_from_camera_ * ray_camera;
   const Eigen::Vector3f eye = eye_.cast<float>();
@@ -97,7 +132,8 @@ bool PlateView::find_box(Box& box) const {
 
 // Rays inside a pixel by bilinear interpolation between its corners': the lens bends far less than that over
 // one pixel.
-float PlateView::coverage_of_pixel(const Eigen::Vector3f* upper, const Eigen::Vector3f* lower) const {
+template <class Is>
+float PlateView::coverage_of_pixel(const Eigen::Vector3f* upper, const Eigen::Vector3f* lower, const Is& is) {
   int inside = 0;
   for (int j = 0; j < kSubPixels; ++j) {
     const float y = (static_cast<float>(j) + 0.5F) / kSubPixels;
@@ -105,13 +141,14 @@ float PlateView::coverage_of_pixel(const Eigen::Vector3f* upper, const Eigen::Ve
     const Eigen::Vector3f right = (1 - y) * upper[1] + y * lower[1];
     for (int i = 0; i < kSubPixels; ++i) {
       const float x = (static_cast<float>(i) + 0.5F) / kSubPixels;
-      inside += covers((1 - x) * left + x * right) ? 1 : 0;
+      inside += is((1 - x) * left + x * right) ? 1 : 0;
     }
   }
   return static_cast<float>(inside) / (kSubPixels * kSubPixels);
 }
 
-std::vector<float> PlateView::coverage(const Box& box) const {
+template <class Is>
+std::vector<float> PlateView::coverage(const Box& box, const Is& is) const {
   const int columns = box.u1 - box.u0;
   const int rows = box.v1 - box.v0;
   const auto& rays = camera_.corner_rays();
@@ -121,14 +158,14 @@ std::vector<float> PlateView::coverage(const Box& box) const {
   std::vector<char> below(above.size());
   for (int v = box.v0; v <= box.v1; ++v) {
     const Eigen::Vector3f* row = rays.data() + v * pitch + box.u0;
-    for (int i = 0; i <= columns; ++i) below[static_cast<std::size_t>(i)] = covers(row[i]) ? 1 : 0;
+    for (int i = 0; i <= columns; ++i) below[static_cast<std::size_t>(i)] = is(row[i]) ? 1 : 0;
     if (v > box.v0) {
       float* out = covered.data() + static_cast<std::ptrdiff_t>(v - 1 - box.v0) * columns;
       for (int i = 0; i < columns; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const int corners = above[k] + above[k + 1] + below[k] + below[k + 1];
         if (corners == 4) out[i] = 1;
-        if (corners > 0 && corners < 4) out[i] = coverage_of_pixel(row - pitch + i, row + i);
+        if (corners > 0 && corners < 4) out[i] = coverage_of_pixel(row - pitch + i, row + i, is);
       }
     }
     above.swap(below);
@@ -164,32 +201,44 @@ bool PlateView::tighten(Box& box, std::vector<float>& covered) const {
 }
 
 template <class Lay>
-void PlateView::lay(double surface_light, const Lay& one_pixel) const {
+void PlateView::lay(const FaceLight& face_light, const Lay& one_pixel) const {
   Box box;
   if (!find_box(box)) return;
-  std::vector<float> covered = coverage(box);
+  std::vector<float> covered = coverage(box, [&](const auto& ray) { return covers(ray); });
   if (!tighten(box, covered)) return;
-  soften(covered, box.u1 - box.u0, box.v1 - box.v0, camera_.point_spread().sigma());
-  const auto surface = static_cast<float>(surface_light);
   const int columns = box.u1 - box.u0;
+  const double sigma = camera_.point_spread().sigma();
+  std::vector<float> shaded;
+  if (!face_light.occluders.empty()) {
+    shaded = coverage(box, [&](const auto& ray) { return covers_in_shade(ray, face_light); });
+    soften(shaded, columns, box.v1 - box.v0, sigma);
+  }
+  soften(covered, columns, box.v1 - box.v0, sigma);
+  const auto lit = static_cast<float>(face_light.lit);
+  const auto loss = static_cast<float>(face_light.lit - face_light.shaded);
+  const auto surface_of = [&](std::size_t i) {
+    if (shaded.empty() || !(covered[i] > 0)) return lit;
+    return lit - loss * std::min(1.0F, shaded[i] / covered[i]);
+  };
   for (int v = box.v0; v < box.v1; ++v) {
-    const float* share = covered.data() + static_cast<std::ptrdiff_t>(v - box.v0) * columns;
+    const std::size_t row = static_cast<std::size_t>(v - box.v0) * static_cast<std::size_t>(columns);
     for (int u = box.u0; u < box.u1; ++u) {
+      const std::size_t i = row + static_cast<std::size_t>(u - box.u0);
       const auto at = static_cast<std::size_t>(v) * static_cast<std::size_t>(camera_.width()) +
                       static_cast<std::size_t>(u);
-      one_pixel(at, share[u - box.u0], surface * camera_.solid_angles()[at] * camera_.transmissions()[at]);
+      one_pixel(at, covered[i], surface_of(i) * camera_.solid_angles()[at] * camera_.transmissions()[at]);
     }
   }
 }
 
-void PlateView::paint(double surface, std::vector<float>& electrons) const {
-  lay(surface, [&](std::size_t at, float share, float light) {
+void PlateView::paint(const FaceLight& face_light, std::vector<float>& electrons) const {
+  lay(face_light, [&](std::size_t at, float share, float light) {
     electrons[at] = (1 - share) * electrons[at] + share * (camera_.dark()[at] + light);
   });
 }
 
-void PlateView::join(double surface, FaceLayer& layer) const {
-  lay(surface, [&](std::size_t at, float share, float light) {
+void PlateView::join(const FaceLight& face_light, FaceLayer& layer) const {
+  lay(face_light, [&](std::size_t at, float share, float light) {
     if (layer.covered.empty()) {
       layer.covered.resize(camera_.transmissions().size());
       layer.light.resize(camera_.transmissions().size());

@@ -147,6 +147,62 @@ TEST(Faces, HideTheTargetsOfAnotherBehindThem) {
   EXPECT_EQ(drawn.truth[0].spot.target, 1);
 }
 
+// The Sun stands 45 degrees to the right in the image; a flap at the plate's right edge, square to it and as
+// high as a quarter of a metre, throws a shadow as wide.
+Scenario with_flap() {
+  Scenario scenario = lit_from(45 * kDegree);
+  Card& card = scenario.cards[0];
+  card.faces.push_back({{rotation_exp({0, 90 * kDegree, 0}), {0.5, 0, 0.125}}, 0.25, 1});
+  card.printed->ambient = 5;
+  return scenario;
+}
+
+TEST(Shadow, OfAFaceIsAsWideAsItsHeightTimesTheSunsTangent) {
+  const Drawn drawn = draw(with_flap());
+  Scenario flat = with_flap();
+  flat.cards[0].faces.pop_back();
+  const Drawn lit = draw(flat);
+  flat.sun.reset();
+  const Drawn dark = draw(flat);
+  const double edge = 199.5 + 150 * std::atan(0.25 / 2);  // of the shadow, 0.25 m right of the middle
+  for (int u = 180; u < 199 + 150 * std::atan(0.45 / 2); ++u) {
+    if (std::abs(u - edge) < 4) continue;  // the spread of the point
+    const Drawn& as = u < edge ? lit : dark;
+    EXPECT_NEAR(drawn.at(u, 199) / as.at(u, 199), 1, 1e-3) << u;
+  }
+}
+
+TEST(Shadow, DarkensTheDiscsInIt) {
+  const auto light = [](double x, bool flap) {
+    Scenario scenario = with_flap();
+    Card& card = scenario.cards[0];
+    card.printed->ambient = 60;
+    if (!flap) card.faces.pop_back();
+    const double plate = draw(scenario).sum();
+    EXPECT_TRUE(card.body.targets.push_back(target_at({x, 0, 0}, {0, 0, 1}, 1)));
+    card.face_of = faces_of(card.body, card.faces);
+    return draw(scenario).sum() - plate;
+  };
+  EXPECT_NEAR(light(0.1, true) / light(0.1, false), 1, 1e-3);
+  EXPECT_LT(light(0.4, true) / light(0.4, false), 1e-3);
+}
+
+TEST(Shadow, FallsFromOneBodyOnAnother) {
+  Scenario scenario = lit_from(60 * kDegree);
+  Card screen =
+      white_plate();  // 0.4 m wide, on the line from the plate's middle to the Sun, out of its sight
+  screen.faces = {{Pose{}, 0.4, 0.4}};
+  const Eigen::Vector3d to_sun(std::sin(60 * kDegree), 0, -std::cos(60 * kDegree));
+  const Eigen::Vector3d place = Eigen::Vector3d(0, 0, 2) + 1.2 * to_sun;
+  screen.motion = Motion::constant(
+      {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), to_sun), place}, {0, 0, 0}, {0, 0, 0});
+  const double lit = draw(scenario).at(199, 199);
+  scenario.cards.push_back(screen);
+  const Drawn drawn = draw(scenario);
+  EXPECT_LT(drawn.at(199, 199) / lit, 1e-6);
+  EXPECT_NEAR(drawn.at(199 - 35, 199) / draw(lit_from(60 * kDegree)).at(199 - 35, 199), 1, 1e-3);
+}
+
 TEST(Card, InTheEarthsShadowIsDark) {
   Scenario scenario = lit_from(0);
   scenario.sun->direction = {-1, 0, 0};

@@ -1,10 +1,15 @@
-// omma-bench render: frame sets a second that the simulator draws and reads out, one thread, files not
-// written. Options: --scenario FILE (default: the demo's, three cameras), --frames N.
+// omma-bench render: frame sets a second that the simulator draws and reads out, files not written: camera by
+// camera on one thread, and whole sets on one and on two workers, by the clock on the wall and by processor
+// time. Options: --scenario FILE (default: the demo's, three cameras), --frames N.
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "ground/simulate/frame_set_renderer.hpp"
 #include "sim/camera_renderer.hpp"
 #include "sim/scenario_file.hpp"
 #include "tests/bench/benches.hpp"
@@ -26,6 +31,34 @@ double frame_microseconds(sim::CameraRenderer& renderer, bool deep, std::uint64_
       renderer.read_out({reinterpret_cast<std::uint8_t*>(grey.data()), grey.size()});
     }
   });
+}
+
+/// Workers take frame sets in turn, as `omma simulate` has them.
+void print_workers(const sim::Scenario& scenario, std::span<const SkyStar> stars, int frames, int workers) {
+  const std::vector<sim::CameraView> views = ground::views_of(scenario);
+  std::atomic<int> next{0};
+  std::vector<double> cpu(static_cast<std::size_t>(workers));
+  const auto work = [&](std::size_t worker) {
+    cpu[worker] = microseconds([&] {
+      ground::FrameSetRenderer renderer(scenario, stars, views);
+      for (int frame = next++; frame < frames; frame = next++) {
+        renderer.draw(static_cast<std::uint64_t>(frame));
+        for (std::size_t c = 0; c < views.size(); ++c) renderer.image(c);
+        renderer.truth();
+      }
+    });
+  };
+  const auto start = std::chrono::steady_clock::now();
+  {
+    std::vector<std::jthread> pool;
+    for (int i = 1; i < workers; ++i) pool.emplace_back(work, static_cast<std::size_t>(i));
+    work(0);
+  }
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double total = 0;
+  for (const double one : cpu) total += 1e-6 * one;
+  std::printf("%d worker%s  %6.1f sets/s by the wall (%.2f processors), %6.1f sets/s a processor\n", workers,
+              workers == 1 ? " " : "s", frames / wall, total / wall, frames / total);
 }
 
 }  // namespace
@@ -56,6 +89,7 @@ int bench_render(int argc, char** argv) {
                 view.width(), view.height(), 1e-3 * median, 1e-3 * quantile(times, 0.95));
   }
   std::printf("frame set %24.2f ms: %.1f sets/s a thread\n", 1e-3 * set, 1e6 / set);
+  for (const int workers : {1, 2}) print_workers(scenario, stars, frames, workers);
   return 0;
 }
 

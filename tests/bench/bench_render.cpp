@@ -1,6 +1,7 @@
 // omma-bench render: frame sets a second that the simulator draws and reads out, files not written: camera by
 // camera on one thread, and whole sets on one and on two workers, by the clock on the wall and by processor
 // time. Options: --scenario FILE (default: the demo's, three cameras), --frames N.
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -37,7 +38,7 @@ double frame_microseconds(sim::CameraRenderer& renderer, bool deep, std::uint64_
 void print_workers(const sim::Scenario& scenario, std::span<const SkyStar> stars, int frames, int workers) {
   const std::vector<sim::CameraView> views = ground::views_of(scenario);
   std::atomic<int> next{0};
-  std::vector<double> cpu(static_cast<std::size_t>(workers));
+  std::array<double, 2> cpu{};  // of each worker, of two at most
   const auto work = [&](std::size_t worker) {
     cpu[worker] = microseconds([&] {
       ground::FrameSetRenderer renderer(scenario, stars, views);

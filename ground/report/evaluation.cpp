@@ -236,7 +236,7 @@ void sum_up(PoseEvaluation& evaluation) {
 void sum_up(MotionEvaluation& evaluation) {
   if (evaluation.points.empty()) return;
   evaluation.rms = rms_over(evaluation.points, [](const PoseError& p) { return p.error; });
-  evaluation.mean_nees = mean_nees(nees_of(evaluation.points), 6).mean;
+  evaluation.mean_nees = mean_nees(nees_of(evaluation.points, &PoseError::nees), 6).mean;
 }
 
 std::vector<PoseEvaluation> bodies_to_judge(const FlownMission& mission,
@@ -328,7 +328,8 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
       if (!sample.motion_valid || sample.first_frame == sample.frame) continue;
       if (const Pose* first = pose_of(judge_of(sample.first_frame).truth, pose.body)) {
         pose.motion.first_frame = sample.first_frame;
-        pose.motion.points.push_back(motion_error(judge, *first, body.rig_from_body, sample));
+        pose.motion.points.push_back(
+            motion_error(judge, *first, judge.truth.bodies[b].rig_from_body, sample));
       }
     }
   }

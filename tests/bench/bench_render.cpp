@@ -34,6 +34,25 @@ double frame_microseconds(sim::CameraRenderer& renderer, bool deep, std::uint64_
   });
 }
 
+/// One camera's frames, on this thread. @return median time of a frame [µs]
+double print_camera(const sim::Scenario& scenario, std::span<const SkyStar> stars, std::size_t c,
+                    int frames) {
+  const sim::CameraView view(scenario.rig.cameras[c], scenario.sensors[c], scenario.seed,
+                             static_cast<int>(c));
+  sim::CameraRenderer renderer(scenario, stars, view, static_cast<int>(c));
+  std::vector<std::uint16_t> grey(static_cast<std::size_t>(view.width()) *
+                                  static_cast<std::size_t>(view.height()));
+  std::vector<sim::SpotTruth> truth;
+  std::vector<double> times;
+  for (int frame = 0; frame < frames; ++frame)
+    times.push_back(frame_microseconds(renderer, scenario.sensors[c].bits > 8,
+                                       static_cast<std::uint64_t>(frame), grey, truth));
+  const double median = quantile(times, 0.5);
+  std::printf("%-10s %4d x %-4d %8.2f ms median %8.2f ms 95 %%\n", scenario.rig.cameras[c].name.c_str(),
+              view.width(), view.height(), 1e-3 * median, 1e-3 * quantile(times, 0.95));
+  return median;
+}
+
 /// Workers take frame sets in turn, as `omma simulate` has them.
 void print_workers(const sim::Scenario& scenario, std::span<const SkyStar> stars, int frames, int workers) {
   const std::vector<sim::CameraView> views = ground::views_of(scenario);
@@ -73,22 +92,8 @@ int bench_render(int argc, char** argv) {
   std::printf("%s: %zu cameras, %zu stars to V %.1f, %d frame sets, one thread\n", scenario.name.c_str(),
               scenario.rig.cameras.size(), stars.size(), scenario.faintest, frames);
   double set = 0;
-  for (std::size_t c = 0; c < scenario.rig.cameras.size(); ++c) {
-    const sim::CameraView view(scenario.rig.cameras[c], scenario.sensors[c], scenario.seed,
-                               static_cast<int>(c));
-    sim::CameraRenderer renderer(scenario, stars, view, static_cast<int>(c));
-    std::vector<std::uint16_t> grey(static_cast<std::size_t>(view.width()) *
-                                    static_cast<std::size_t>(view.height()));
-    std::vector<sim::SpotTruth> truth;
-    std::vector<double> times;
-    for (int frame = 0; frame < frames; ++frame)
-      times.push_back(frame_microseconds(renderer, scenario.sensors[c].bits > 8,
-                                         static_cast<std::uint64_t>(frame), grey, truth));
-    const double median = quantile(times, 0.5);
-    set += median;
-    std::printf("%-10s %4d x %-4d %8.2f ms median %8.2f ms 95 %%\n", scenario.rig.cameras[c].name.c_str(),
-                view.width(), view.height(), 1e-3 * median, 1e-3 * quantile(times, 0.95));
-  }
+  for (std::size_t c = 0; c < scenario.rig.cameras.size(); ++c)
+    set += print_camera(scenario, stars, c, frames);
   std::printf("frame set %24.2f ms: %.1f sets/s a thread\n", 1e-3 * set, 1e6 / set);
   for (const int workers : {1, 2}) print_workers(scenario, stars, frames, workers);
   return 0;

@@ -14,6 +14,7 @@ constexpr double kShortestPair = 0.1;         // of the camera's field: shorter 
 constexpr double kEntriesPerHypothesis = 32;  // table entries passed over cost as much as one hypothesis
 constexpr double kOutsidePrior = 0.1;         // cost of a hypothesis that the prior excludes, in hypotheses
 constexpr double kRefinementCost = 500;       // of one refinement, in hypotheses
+constexpr double kEarly = 30;                 // hypotheses that share the bound almost evenly, the first ones
 
 /// Axes fixed by two directions, as columns: along their sum, their difference, and at right angles.
 Eigen::Matrix3d axes_of(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
@@ -57,11 +58,14 @@ StarIdentification::StarIdentification(const StarCatalogue& catalogue, const Sky
 }
 
 double StarIdentification::ratio_to_accept(std::uint32_t hypothesis) const noexcept {
-  // Each hypothesis h has its part w(h) of the bound: half of the bound in equal parts, the other half as
-  // 1/(h(h+1)), which favours the first ones, made of the brightest dots. The parts add up to one at most,
-  // mirrored search included.
-  const double h = hypothesis;
-  const double part = 0.25 / parameters_.hypothesis_limit + 0.5 / (h * (h + 1));
+  // Each hypothesis h has its part w(h) of the bound: 0.85 of it fall slowly, as ln k / ((h + k) ln²(h + k)),
+  // whose sum over all h ≥ 1 is below its integral from 0, which is 1; so the first hypotheses, made of the
+  // brightest dots, need the fewest stars. The rest is in equal parts for late ones. Together they are at
+  // most one, the mirrored search with its half of the hypotheses included.
+  const double x = kEarly + hypothesis;
+  const double logarithm = std::log(x);
+  const double part =
+      0.85 * std::log(kEarly) / (x * logarithm * logarithm) + 0.1 / parameters_.hypothesis_limit;
   return 1 / (parameters_.false_match_probability * part);
 }
 

@@ -58,14 +58,15 @@ StarIdentification::StarIdentification(const StarCatalogue& catalogue, const Sky
 }
 
 double StarIdentification::ratio_to_accept(std::uint32_t hypothesis) const noexcept {
-  // Each hypothesis h has its part w(h) of the bound: 0.85 of it fall slowly, as ln k / ((h + k) ln²(h + k)),
-  // whose sum over all h ≥ 1 is below its integral from 0, which is 1; so the first hypotheses, made of the
-  // brightest dots, need the fewest stars. The rest is in equal parts for late ones. Together they are at
-  // most one, the mirrored search with its half of the hypotheses included.
-  const double x = kEarly + hypothesis;
-  const double logarithm = std::log(x);
-  const double part =
-      0.85 * std::log(kEarly) / (x * logarithm * logarithm) + 0.1 / parameters_.hypothesis_limit;
+  // Each hypothesis h has its part w(h) of the bound. 0.6 of it fall slowly, as ln k / ((h + k) ln²(h + k)),
+  // whose sum over all h ≥ 1 is below its integral from 0, which is 1: the brightest dots' hypotheses need
+  // the fewest stars. A quarter, as 1/(h(h + 1)), is for the very first, all that an aided search may need;
+  // the rest in equal parts for late ones. Together they are at most one, the mirrored search with its half
+  // of the hypotheses included.
+  const double h = hypothesis;
+  const double logarithm = std::log(h + kEarly);
+  const double part = 0.25 / (h * (h + 1)) + 0.6 * std::log(kEarly) / ((h + kEarly) * logarithm * logarithm) +
+                      0.1 / parameters_.hypothesis_limit;
   return 1 / (parameters_.false_match_probability * part);
 }
 

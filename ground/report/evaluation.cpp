@@ -326,7 +326,9 @@ Evaluation evaluate(const FlownMission& mission, const std::vector<TruthFrame>& 
       check_protection(error.tail<3>(), sample.integrity.protection_m, pose.protection);
       pose.protection.alerts += sample.integrity.state == omma_INTEGRITY_ALERT ? 1 : 0;
       if (!sample.motion_valid || sample.first_frame == sample.frame) continue;
-      if (const Pose* first = pose_of(judge_of(sample.first_frame).truth, pose.body)) {
+      const auto first_frame = judges.find(sample.first_frame);
+      if (first_frame == judges.end()) continue;  // a truth may begin after the first pose
+      if (const Pose* first = pose_of(first_frame->second.truth, pose.body)) {
         pose.motion.first_frame = sample.first_frame;
         pose.motion.points.push_back(
             motion_error(judge, *first, judge.truth.bodies[b].rig_from_body, sample));

@@ -15,6 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr int kFrameSets = 4;
+constexpr const char* kRecording = "recording = \"lab.mcap\"";
 
 /// The lab's mission, over frames of a dark room.
 class RecordedGimbal : public MissionFile {
@@ -44,9 +45,13 @@ class RecordedGimbal : public MissionFile {
     options.no_dds = true;
     Flight(read_mission(lab()), options).run();
   }
-  void play_back(const std::string& recording) const {
+  void play_recorded() const {
     replace("lab.toml", "driver = \"simulated\"             # the lab's: driver = \"maestro\"",
-            "driver = \"recorded\"\nrecording = \"" + recording + "\"");
+            "driver = \"recorded\"");
+  }
+  void play_back(const std::string& recording) const {
+    play_recorded();
+    replace("lab.toml", kRecording, "recording = \"" + recording + "\"");
   }
   /// The samples of the motion as they were sent.
   std::vector<std::string> motion(const std::string& log) const {
@@ -95,8 +100,8 @@ TEST_F(RecordedGimbal, TellsATableOfAngles) {
 }
 
 TEST_F(RecordedGimbal, WithoutARecordingIsRefused) {
-  replace("lab.toml", "driver = \"simulated\"             # the lab's: driver = \"maestro\"",
-          "driver = \"recorded\"");
+  play_recorded();
+  replace("lab.toml", kRecording, "");
   EXPECT_THAT(refusal(),
               HasSubstr("motion.recording: expected a flight's recording (.mcap) or a table (.csv) of "
                         "what the axes did, found nothing"));

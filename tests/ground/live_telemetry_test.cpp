@@ -26,6 +26,13 @@ using telemetry::TopicId;
 
 constexpr auto kPatience = 20s;  // discovery takes well under a second on an idle machine
 
+/// Valid, whichever is the newest when the monitor looks.
+omma_Attitude valid_attitude(int i) {
+  omma_Attitude attitude = test::attitude_sample(i);
+  attitude.valid = true;
+  return attitude;
+}
+
 /// Publishes a frame set every 20 ms, and one event at the start, until it is destroyed.
 class Publisher {
  public:
@@ -55,8 +62,7 @@ class Publisher {
       sink_.write(TopicId::kFrameSet, &frame_set, {});
       const omma_CameraDots seen = test::dots_sample(i, dots, 3);
       sink_.write(TopicId::kDots, &seen, {});
-      omma_Attitude attitude = test::attitude_sample(i);
-      attitude.valid = true;  // whichever is the newest when the monitor looks
+      const omma_Attitude attitude = valid_attitude(i);
       sink_.write(TopicId::kAttitude, &attitude, {});
       std::this_thread::sleep_for(20ms);
     }
@@ -90,7 +96,7 @@ TEST_F(LiveTelemetry, SubscriberFindsTheSpacecraftAndGetsTheBytesTheLogWouldHave
       telemetry::SampleHead head;
       ASSERT_TRUE(telemetry::read_head(bytes, head));
       if (id == TopicId::kAttitude) {
-        const omma_Attitude truth = test::attitude_sample(static_cast<int>(head.frame));
+        const omma_Attitude truth = valid_attitude(static_cast<int>(head.frame));
         const std::span<const std::byte> logged = cdr.write(id, &truth);
         EXPECT_TRUE(std::equal(bytes.begin(), bytes.end(), logged.begin(), logged.end()));
         ++attitudes;

@@ -215,7 +215,9 @@ std::string report_text(const ReportContent& content) {
         p.rotation.rms / kDegree, p.rotation.ratio(), p.nees.mean);
     if (!p.motion.points.empty())
       text += format(
-          "           motion since frame %llu: position rms %.2f mm, rotation rms %.3f deg, NEES %.2f of 6\n",
+          "           motion since frame %llu: position rms %.2f mm, rotation rms %.3f deg, NEES %.2f of 6 "
+          "(that frame's "
+          "error is in all)\n",
           static_cast<unsigned long long>(p.motion.first_frame), 1e3 * p.motion.rms.tail<3>().norm(),
           p.motion.rms.head<3>().norm() / kDegree, p.motion.mean_nees);
   }

@@ -136,6 +136,7 @@ class FeedLog {
 
 /// A frame set kept back with the stamp it has.
 struct Held {
+  std::size_t turn = 0;
   std::size_t frame = 0;
   TimeNs time_ns = 0;
 };
@@ -183,12 +184,14 @@ int feed(const FeedOptions& options) {
     }
     const TimeNs now = instants.now();
     if (is_every(turn, options.hold_every)) {
-      held.push_back({turn % count, now});
+      held.push_back({turn, turn % count, now});
       continue;
     }
-    for (const Held& late_one : held)
-      for (const FedCamera& camera : cameras) camera.give(late_one.frame, late_one.time_ns);
-    held.clear();
+    // Two turns: after one a flight that is behind may still be waiting for them.
+    if (!held.empty() && turn >= held.front().turn + 2) {
+      for (const FedCamera& camera : cameras) camera.give(held.front().frame, held.front().time_ns);
+      held.erase(held.begin());
+    }
     for (const FedCamera& camera : cameras) camera.give(turn % count, now);
     log.add(cameras.front().numbers[turn % count], now);
     ++fed;
@@ -225,7 +228,7 @@ void add_feed(CLI::App& app, CommandContext& context) {
                       "Leave out the last of so many, as a camera that misses a pulse");
   command->add_option("--late-every", o->late_every, "Give the last of so many two fifths of a period late");
   command->add_option("--hold-every", o->hold_every,
-                      "Give the last of so many one frame set later, with the stamp it had");
+                      "Give the last of so many two frame sets later, with the stamp it had");
   command->add_option("--log", o->log, "File (CSV) for the instant each frame set was given");
   command->callback([o, &context] { context.exit_code = feed(*o); });
 }

@@ -64,7 +64,7 @@ $BIN/omma export "$OUTPUT/badly.mcap" --out "$OUTPUT/csv" --topic frame_set > /d
 [ "$(grep -c FRAME_MISSING "$OUTPUT/csv/frame_set.csv")" = 12 ]
 check $? "$(grep -c FRAME_MISSING "$OUTPUT/csv/frame_set.csv") of 12 frames told as missing: of 3 pulses and before the first, of 3 cameras"
 
-# Frames that are there a frame set too late, with the stamp of their exposure: of 30 pulses those of number 10 and 20 (that of
+# Frames that are there two frame sets too late, with the stamp of their exposure: of 30 pulses those of number 10 and 20 (that of
 # number 30 comes after the end). A loopback device stamps by itself: these cameras are the simulated ones.
 sed 's/^driver = "v4l2"/driver = "simulated"/' config/hil.toml > config/hil_held.toml
 chrt -f 80 $BIN/omma feed $FRAMES --camera hdr1=simulated:hdr1 --camera cam0=simulated:cam0 --camera cam2=simulated:cam2 \

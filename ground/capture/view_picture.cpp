@@ -2,10 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
-#include <cstdlib>
-// libjpeg's header needs FILE declared before it.
-#include <jpeglib.h>
 
 namespace omma::ground {
 namespace {
@@ -56,34 +52,6 @@ ViewPicture view_picture(const ImageView& image, int width, int height, bool str
         std::clamp((cell - range.dark) * 255 / (range.bright - range.dark), 0, 255));
   });
   return picture;
-}
-
-std::vector<std::uint8_t> encode_jpeg(const ViewPicture& picture, int quality) {
-  jpeg_compress_struct info{};
-  jpeg_error_mgr errors{};
-  info.err = jpeg_std_error(&errors);  // ends the program: only where there is no memory
-  jpeg_create_compress(&info);
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &bytes, &size);
-  info.image_width = static_cast<JDIMENSION>(picture.width);
-  info.image_height = static_cast<JDIMENSION>(picture.height);
-  info.input_components = 1;
-  info.in_color_space = JCS_GRAYSCALE;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, quality, TRUE);
-  jpeg_start_compress(&info, TRUE);
-  while (info.next_scanline < info.image_height) {
-    // libjpeg does not write into the row, but its type does not say so.
-    auto* row = const_cast<JSAMPROW>(picture.levels.data() + std::size_t{info.next_scanline} *
-                                                                 static_cast<std::size_t>(picture.width));
-    jpeg_write_scanlines(&info, &row, 1);
-  }
-  jpeg_finish_compress(&info);
-  std::vector<std::uint8_t> jpeg(bytes, bytes + size);
-  jpeg_destroy_compress(&info);
-  std::free(bytes);
-  return jpeg;
 }
 
 }  // namespace omma::ground

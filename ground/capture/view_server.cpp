@@ -37,13 +37,13 @@ struct Look {
   bool stretch = true;
 };
 
-std::vector<std::uint8_t> jpeg_of(const ShownFrame& frame, const Look& look) {
+std::vector<std::byte> jpeg_of(const ShownFrame& frame, const Look& look) {
   const ImageView image = frame.image.view();
   // Whole cells: of unequal ones the larger would be brighter, a pattern over the noise.
   const int cell = (image.width + look.width - 1) / look.width;
   const int width = std::max(1, image.width / cell);
   const int height = std::max(1, image.height / cell);
-  return encode_jpeg(view_picture(image, width, height, look.stretch), kQuality);
+  return encode_jpeg(view_picture(image, width, height, look.stretch).view(), kQuality);
 }
 
 /// The frames of one camera on their way to one reader.
@@ -68,10 +68,10 @@ class Stream {
       if (!frame) continue;
       last_ = std::chrono::steady_clock::now();
       count_ = frame->count;
-      const std::vector<std::uint8_t> jpeg = jpeg_of(*frame, look_);
+      const std::vector<std::byte> jpeg = jpeg_of(*frame, look_);
       part_ = std::string("--") + kBoundary +
               "\r\nContent-Type: image/jpeg\r\nContent-Length: " + std::to_string(jpeg.size()) + "\r\n\r\n";
-      part_.append(jpeg.begin(), jpeg.end());
+      part_.append(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
       part_ += "\r\n";
       sent_ = 0;
       return true;
@@ -161,7 +161,7 @@ struct ViewServer::Daemon {
     const auto newest = found->shown().newest();
     const auto frame = found->shown().newer(newest ? newest->count : 0, milliseconds(2000));
     if (!frame) return say(connection, MHD_HTTP_SERVICE_UNAVAILABLE, "no frame came within two seconds");
-    const std::vector<std::uint8_t> jpeg = jpeg_of(*frame, *look);
+    const std::vector<std::byte> jpeg = jpeg_of(*frame, *look);
     return answer(connection, MHD_HTTP_OK, "image/jpeg",
                   std::string_view(reinterpret_cast<const char*>(jpeg.data()), jpeg.size()));
   }

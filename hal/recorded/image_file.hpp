@@ -74,6 +74,8 @@ enum class PngEffort : std::uint8_t {
 
 /// A grey PNG of 8 or 16 bits. A white level below the format's largest is noted in the file and read back.
 std::vector<std::byte> encode_png(const ImageView& image, PngEffort effort = PngEffort::kSmall);
+/// A grey JPEG. @param grey  8 bits. @param quality  1 ... 100
+std::vector<std::byte> encode_jpeg(const ImageView& grey, int quality);
 /// A colour PNG: `rgb` holds 3 × width × height bytes, rows packed.
 std::vector<std::byte> encode_png_rgb(int width, int height, std::span<const std::uint8_t> rgb,
                                       PngEffort effort = PngEffort::kSmall);

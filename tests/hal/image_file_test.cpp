@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "fsw/kernel/input_error.hpp"
-#include "tests/hal/jpeg_bytes.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
 
@@ -198,7 +197,7 @@ TEST(PngFile, SizeIsReadFromTheHeaderAlone) {
 
 TEST(JpegFile, GreyComesBackWithinItsCompression) {
   const Image image = pattern<std::uint8_t>(1);
-  const Image back = read_image(written("grey.jpg", test::jpeg_of(image)));
+  const Image back = read_image(written("grey.jpg", encode_jpeg(image.view(), 98)));
   ASSERT_EQ(back.pixels.size(), image.pixels.size());
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     EXPECT_NEAR(std::to_integer<int>(back.pixels[i]), std::to_integer<int>(image.pixels[i]), 6);
@@ -277,7 +276,7 @@ TEST(DamagedImage, PngIsRefused) {
 }
 
 TEST(DamagedImage, JpegIsRefused) {
-  expect_refused_when_cut(test::jpeg_of(pattern<std::uint8_t>(1)), "cut.jpg", 1);
+  expect_refused_when_cut(encode_jpeg(pattern<std::uint8_t>(1).view(), 98), "cut.jpg", 1);
 }
 
 TEST(DamagedImage, FitsIsRefused) {

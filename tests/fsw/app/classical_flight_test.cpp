@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "fsw/app/mission.hpp"
-#include "fsw/app/topology.hpp"
-#include "fsw/kernel/clock.hpp"
-#include "fsw/kernel/memory_guard.hpp"
-#include "fsw/kernel/scheduler.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
+#include "tests/bench/flown_scenario.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -23,38 +20,16 @@ namespace {
 constexpr int kFrameSets = 6;
 constexpr double kArcsec = M_PI / (180 * 3600);
 
-std::filesystem::path config(const std::string& file) {
-  return std::filesystem::path(OMMA_SOURCE_DIR) / "config" / file;
-}
-
 struct FrameSetResult {
   AttitudeEstimate attitude;
   PoseEstimate card;
   std::size_t sky_pairs = 0, dots = 0;
 };
 
-class Keeper final : public ScheduleObserver {
- public:
-  Keeper(const Topology& topology, std::size_t frame_sets) : topology_(topology) {
-    results.reserve(frame_sets);
-  }
-  void beat_finished(std::uint16_t group, const Tick&) noexcept override {
-    if (group != 0) return;
-    FrameSetResult result{*topology_.attitude.estimate, topology_.pose.estimates->bodies[0]};
-    result.sky_pairs = topology_.tracker.pairings->sky.pairs.size();
-    for (const DotList& list : topology_.extractor.dots->cameras) result.dots += list.dots.size();
-    results.push_back(result);
-  }
-  std::vector<FrameSetResult> results;
-
- private:
-  const Topology& topology_;
-};
-
 class ClassicalFlight : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    scenario() = sim::read_scenario_file(config("demo_scenario.toml"));
+    scenario() = sim::read_scenario_file(config_file("demo_scenario.toml"));
     scenario().frames = kFrameSets;
     ground::render_recording(scenario(), frames(), 2);
   }
@@ -70,18 +45,19 @@ class ClassicalFlight : public ::testing::Test {
   /// @param change  what is done to every camera of the demo's mission
   template <class Change>
   static std::vector<FrameSetResult> fly(Change&& change) {
-    Mission mission = read_mission(config("demo.toml"));
+    Mission mission = read_mission(config_file("demo.toml"));
     mission.recording = frames();
     for (CameraMission& camera : mission.cameras) change(camera.dots);
-    const auto topology = std::make_unique<Topology>(mission, RunOptions{.lockstep = true, .workers = 2});
-    const std::uint64_t frame_sets = topology->frame_sets();
-    LockstepClock clock;
-    Keeper keeper(*topology, frame_sets);
-    Scheduler scheduler(topology->table(), clock, keeper);
-    const memory_guard::Violations before = memory_guard::violations();
-    scheduler.run(frame_sets);
-    EXPECT_EQ(memory_guard::violations().total() - before.total(), 0U);
-    return keeper.results;
+    std::vector<FrameSetResult> results;
+    results.reserve(kFrameSets);
+    const std::uint64_t allocations = fly_recording(mission, 2, [&](const Topology& topology) {
+      FrameSetResult result{*topology.attitude.estimate, topology.pose.estimates->bodies[0]};
+      result.sky_pairs = topology.tracker.pairings->sky.pairs.size();
+      for (const DotList& list : topology.extractor.dots->cameras) result.dots += list.dots.size();
+      results.push_back(result);
+    });
+    EXPECT_EQ(allocations, 0U);
+    return results;
   }
 
   /// @param least_cards  frame sets whose card is right to 1 % of its range

@@ -10,7 +10,6 @@
 #include "components/telemetry/mcap_writer.hpp"
 #include "fsw/kernel/input_error.hpp"
 #include "hal/recorded/recorded_camera.hpp"
-#include "tests/hal/jpeg_bytes.hpp"
 #include "tests/refusal.hpp"
 
 namespace omma {
@@ -139,7 +138,7 @@ TEST_F(McapRecording, JpegFramesAreTakenToo) {
     Image image;
     image.resize(16, 8, PixelFormat::kGrey8);
     for (std::byte& pixel : image.pixels) pixel = static_cast<std::byte>(40 * (n + 1));
-    write(cam1_, Message(kStart + n * kPeriod).text("jpeg").data(test::jpeg_of(image)).bytes());
+    write(cam1_, Message(kStart + n * kPeriod).text("jpeg").data(encode_jpeg(image.view(), 98)).bytes());
   }
   McapFrames cam1 = open("cam1");
   ASSERT_EQ(cam1.count(), 3U);
@@ -158,7 +157,7 @@ TEST_F(McapRecording, AJpegThatIsCutShortIsRefused) {
   image.resize(64, 64, PixelFormat::kGrey8);
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = static_cast<std::byte>(i * 7919 % 251);
-  std::vector<std::byte> jpeg = test::jpeg_of(image);
+  std::vector<std::byte> jpeg = encode_jpeg(image.view(), 98);
   jpeg.resize(jpeg.size() / 2);
   write(cam1_, Message(kStart).text("jpeg").data(jpeg).bytes());
   EXPECT_THAT(refusal("cam1"), HasSubstr("JPEG: expected a whole image"));

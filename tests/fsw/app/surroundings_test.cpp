@@ -9,11 +9,9 @@
 #include <vector>
 
 #include "fsw/app/mission.hpp"
-#include "fsw/app/topology.hpp"
-#include "fsw/kernel/clock.hpp"
-#include "fsw/kernel/scheduler.hpp"
 #include "ground/simulate/render_recording.hpp"
 #include "sim/scenario_file.hpp"
+#include "tests/bench/flown_scenario.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -22,21 +20,9 @@ namespace {
 constexpr int kFrameSets = 8;
 constexpr double kArcsecond = std::numbers::pi / (180.0 * 3600.0);
 
-std::filesystem::path config(const std::string& file) {
-  return std::filesystem::path(OMMA_SOURCE_DIR) / "config/scenarios" / file;
+std::filesystem::path scenario_file(const std::string& file) {
+  return config_file("scenarios/" + file);
 }
-
-class Keeper final : public ScheduleObserver {
- public:
-  explicit Keeper(const Topology& topology) : topology_(topology) { results.reserve(kFrameSets); }
-  void beat_finished(std::uint16_t group, const Tick&) noexcept override {
-    if (group == 0) results.push_back(*topology_.attitude.estimate);
-  }
-  std::vector<AttitudeEstimate> results;
-
- private:
-  const Topology& topology_;
-};
 
 struct Flown {
   int valid = 0;
@@ -51,21 +37,20 @@ class Surroundings : public testing::Test {
     return std::filesystem::path(OMMA_BINARY_DIR) / "tests" / ("surroundings_" + std::to_string(getpid()));
   }
   static sim::Scenario render(const std::string& file) {
-    sim::Scenario scenario = sim::read_scenario_file(config(file));
+    sim::Scenario scenario = sim::read_scenario_file(scenario_file(file));
     scenario.frames = kFrameSets;
     ground::render_recording(scenario, frames(), 2);
     return scenario;
   }
   static Flown fly(const sim::Scenario& scenario, Mission mission) {
     mission.recording = frames();
-    Topology topology(mission, {.lockstep = true, .workers = 1});
-    LockstepClock clock;
-    Keeper keeper(topology);
-    Scheduler scheduler(topology.table(), clock, keeper);
-    scheduler.run(topology.frame_sets());
+    std::vector<AttitudeEstimate> results;
+    results.reserve(kFrameSets);
+    fly_recording(mission, 1,
+                  [&](const Topology& topology) { results.push_back(*topology.attitude.estimate); });
     Flown flown;
-    for (std::size_t f = 0; f < keeper.results.size(); ++f) {
-      const AttitudeEstimate& estimate = keeper.results[f];
+    for (std::size_t f = 0; f < results.size(); ++f) {
+      const AttitudeEstimate& estimate = results[f];
       if (!estimate.valid) continue;
       const Eigen::Quaterniond truth = sim::scene_at(scenario, scenario.time_of(f)).rig_from_j2000;
       const Eigen::Vector3d error = rotation_log(truth * estimate.solution.rig_from_j2000.conjugate());
@@ -80,7 +65,7 @@ class Surroundings : public testing::Test {
 
 TEST_F(Surroundings, OfALitEarthLeaveTheAttitudeRight) {
   const sim::Scenario scenario = render("orbit_scenario.toml");
-  const Flown flown = fly(scenario, read_mission(config("orbit.toml")));
+  const Flown flown = fly(scenario, read_mission(scenario_file("orbit.toml")));
   EXPECT_EQ(flown.valid, kFrameSets);
   EXPECT_LT(flown.nees, 8);
   EXPECT_LT(flown.largest, 60 * kArcsecond);
@@ -88,7 +73,7 @@ TEST_F(Surroundings, OfALitEarthLeaveTheAttitudeRight) {
 
 TEST_F(Surroundings, OfALaboratorysNightRefractAndAreKnownByTheSite) {
   const sim::Scenario scenario = render("lab_night_scenario.toml");
-  Mission mission = read_mission(config("lab_night.toml"));
+  Mission mission = read_mission(scenario_file("lab_night.toml"));
   const Flown knowing = fly(scenario, mission);
   EXPECT_EQ(knowing.valid, kFrameSets);
   EXPECT_LT(knowing.nees, 8);

@@ -47,6 +47,8 @@ After=
 WatchdogSec=3
 ExecStart=
 ExecStart=/usr/bin/omma-fsw /etc/omma/mission.toml --parameters parameters --events events.ring --frames /mnt/frames --real-time --rounds 100000 --no-dds
+# Written as it ends: asked for afterwards, the reason is gone as soon as the next run is up.
+ExecStopPost=+/bin/sh -c 'echo "$$SERVICE_RESULT" >>/run/omma-ended'
 UNIT
 cat >"$root/run/systemd/system/check.service" <<UNIT
 [Unit]

@@ -21,14 +21,12 @@ check "runs as a user of its own, not as root" yes "$([ "$(stat -c %u "/proc/$fi
 echo "      threads, class and priority: $(ps -L -o comm=,cls=,rtprio= -p "$first" | tr -s ' ' | paste -sd, -)"
 
 kill -STOP "$first"
-why=unknown
 for _ in $(seq 80); do
   sleep 0.25
-  [ "$(property Result)" = success ] || why=$(property Result)
   [ "$(property NRestarts)" = 1 ] && [ "$(property ActiveState)" = active ] && break
 done
 check "stopped from outside: ended and started anew" "1 active" "$(property NRestarts) $(property ActiveState)"
-check "because of" watchdog "$why"
+check "because of" watchdog "$(cat /run/omma-ended)"
 sleep 1
 told=$(omma events /var/lib/omma/events.ring)
 check "runs that the event store tells" "1 2" "$(awk '/^run/ { print $2 }' <<<"$told" | sort -nu | xargs)"

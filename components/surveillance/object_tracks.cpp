@@ -1,6 +1,7 @@
 #include "components/surveillance/object_tracks.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,10 +11,19 @@ namespace {
 constexpr double kLeastDensity = 0.05;  // of chance dots [1/sr]: none seen yet is not none to come
 constexpr double kMemory = 0.02;        // weight of the newest frame set in running means
 constexpr std::uint32_t kCandidatePatience = 2;
+constexpr std::uint32_t kSettled = 8;  // sightings until the first, maybe of something else, counts no more
 
 // Seen and expected both uncertain: how far a path of one end may seem to be of two.
 bool moved(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double sigma) {
   return (to - from).norm() > 6 * sigma;
+}
+
+// Whenever the sightings have doubled: so no single dot decides for ever, and at least half of them are
+// between.
+void renew_start(ObjectTrack& track) noexcept {
+  if (track.sightings < kSettled || !std::has_single_bit(track.sightings)) return;
+  track.from = track.next_from;
+  track.next_from = {track.state.direction(), track.ray};
 }
 
 }  // namespace
@@ -21,8 +31,8 @@ bool moved(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double sigma)
 // A thing that moved against the stars and against the rig moves; one that did against neither may be
 // anything.
 ObjectMotion ObjectTrack::motion() const noexcept {
-  const bool against_stars = moved(first_direction, state.direction(), largest_sigma);
-  const bool against_rig = moved(first_ray, ray, largest_sigma);
+  const bool against_stars = moved(from.direction, state.direction(), largest_sigma);
+  const bool against_rig = moved(from.ray, ray, largest_sigma);
   if (against_stars && against_rig) return ObjectMotion::kMoving;
   if (against_stars) return ObjectMotion::kWithTheRig;
   if (against_rig) return ObjectMotion::kWithTheStars;
@@ -59,6 +69,7 @@ void ObjectTracks::take(std::span<const LeftoverDot> dots, const SkyFrame& frame
     if (track.bearing.seen) {
       ++track.sightings;
       track.missed = 0;
+      renew_start(track);
       track.last_seen_ns = frame.time_ns;
     } else {
       miss(track, frame);
@@ -235,8 +246,8 @@ void ObjectTracks::begin_tracks(std::span<const LeftoverDot> dots, const SkyFram
     track->state.start(dot.direction, direction_covariance(dot), 0.5 * parameters_.largest_rate);
     track->first_seen_ns = track->last_seen_ns = frame.time_ns;
     track->sightings = 1;
-    track->first_direction = dot.direction;
-    track->first_ray = track->ray = dot.ray;
+    track->from = track->next_from = {dot.direction, dot.ray};
+    track->ray = dot.ray;
     track->largest_sigma = dot.sigma;
   }
   births_ += kMemory * (begun - births_);

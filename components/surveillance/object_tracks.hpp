@@ -16,6 +16,12 @@
 
 namespace omma {
 
+/// Where an object stood, against the stars and against the rig.
+struct ObjectPlace {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< J2000
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitX();        ///< rig
+};
+
 struct ObjectTrack {
   bool active = false;
   std::uint32_t number = 0;  ///< 0: not confirmed
@@ -25,11 +31,11 @@ struct ObjectTrack {
   TimeNs last_seen_ns = 0;
   std::uint32_t sightings = 0;
   std::uint32_t missed = 0;
-  Eigen::Vector3d first_direction = Eigen::Vector3d::UnitX();  ///< J2000
-  Eigen::Vector3d first_ray = Eigen::Vector3d::UnitX();        ///< rig
-  Eigen::Vector3d ray = Eigen::Vector3d::UnitX();              ///< newest, rig
-  double largest_sigma = 0;                                    ///< of its dots [rad]
-  ObjectBearing bearing;                                       ///< in the newest frame set
+  ObjectPlace from;                                ///< its motion is judged from here
+  ObjectPlace next_from;                           ///< and from here when its sightings have doubled
+  Eigen::Vector3d ray = Eigen::Vector3d::UnitX();  ///< newest, rig
+  double largest_sigma = 0;                        ///< of its dots [rad]
+  ObjectBearing bearing;                           ///< in the newest frame set
 
   ObjectMotion motion() const noexcept;
 };

@@ -11,7 +11,7 @@ struct SurveillanceParameters {
   double detection_probability = 0.9;    ///< of an object in the field
   double false_objects_per_hour = 0.01;  ///< that chance may make of dots at random
   int least_sightings = 4;               ///< before an object is confirmed
-  int patience = 10;            ///< frame sets in a row a confirmed object may be missed in the field
+  int patience = 30;            ///< frame sets in a row a confirmed object may be missed in the field
   double largest_sigma = 0.02;  ///< an object known worse than this is given up [rad]
 };
 

@@ -176,6 +176,17 @@ TEST_F(WatchedSky, WhatMovesStandsOrTurnsWithTheRigIsToldApart) {
   EXPECT_EQ(turning, 1);
 }
 
+TEST_F(WatchedSky, AHotPixelWhoseFirstDotWasAnotherTurnsWithTheRigAllTheSame) {
+  for (int i = 0; i < 40; ++i) {
+    begin_frame();
+    add_dot(2, {i == 0 ? 301.0 : 300.0, 400});
+    end_frame();
+  }
+  ASSERT_EQ(objects().objects.size(), 1U);
+  EXPECT_GT(objects().objects[0].sightings, 30U);
+  EXPECT_EQ(objects().objects[0].motion, ObjectMotion::kWithTheRig);
+}
+
 TEST_F(WatchedSky, AnObjectIsHandedFromCameraToCamera) {
   rate_.setZero();
   begin_frame();

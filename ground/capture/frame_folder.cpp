@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fsw/kernel/input_error.hpp"
+#include "hal/recorded/exposures_file.hpp"
 
 namespace omma::ground {
 
@@ -45,7 +46,14 @@ void FrameFolder::write(std::uint64_t number, const LiveFrame& frame) {
   stream.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
   stream.flush();
   index_ << number << ',' << frame.time_ns << ',' << frame.sequence << '\n';
-  if (!stream || !index_)
+  if (frame.settings.exposure_ns > 0) {
+    if (!exposures_.is_open()) {
+      exposures_.open(folder_ / kExposuresFile);
+      exposures_ << kExposuresHeading << '\n';
+    }
+    exposures_ << exposure_line(number, frame.settings);
+  }
+  if (!stream || !index_ || !exposures_)
     throw InputError(file.string(), 0, "file", "a disk with room", "one that takes no more");
   ++frames_;
   bytes_ += png.size();

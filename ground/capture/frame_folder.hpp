@@ -58,6 +58,7 @@ class FrameFolder {
   std::string camera_;
   PngEffort effort_;
   std::ofstream index_;
+  std::ofstream exposures_;  // opened by the first frame whose exposure is known
   std::uint64_t frames_ = 0;
   std::uint64_t bytes_ = 0;
 };

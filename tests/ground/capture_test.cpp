@@ -12,6 +12,7 @@
 #include "ground/capture/capture_options.hpp"
 #include "ground/capture/frame_folder.hpp"
 #include "ground/capture/half_blocks.hpp"
+#include "hal/recorded/exposures_file.hpp"
 #include "tests/paths.hpp"
 #include "tests/refusal.hpp"
 
@@ -72,6 +73,22 @@ TEST_F(FolderOfFrames, IsARecordingAndAnIndex) {
   std::ostringstream index;
   index << std::ifstream(top_ / "cam0" / "cam0.csv").rdbuf();
   EXPECT_EQ(index.str(), "number,time_ns,sequence\n7,123,9\n");
+}
+
+TEST_F(FolderOfFrames, TellsHowItsFramesWereExposedWhereTheCameraDoes) {
+  const std::byte pixel{};
+  const ImageView image{&pixel, 1, 1, 1, PixelFormat::kGrey8, 255};
+  const CameraSettings settings{.exposure_ns = 2'500'000, .gain = 4, .black_level = 10};
+  {
+    FrameFolder folder(top_, "told", PngEffort::kStored);
+    folder.write(3, {image, 123, 1});
+    folder.write(4, {image, 456, 2, settings});
+    FrameFolder(top_, "silent", PngEffort::kStored).write(3, {image, 123, 1});
+  }
+  const auto exposures = read_exposures(top_ / "told" / kExposuresFile);
+  ASSERT_EQ(exposures.size(), 1U);
+  EXPECT_EQ(exposures.at(4), settings);
+  EXPECT_FALSE(std::filesystem::exists(top_ / "silent" / kExposuresFile));
 }
 
 TEST_F(FolderOfFrames, OfAnEarlierCaptureIsNotWrittenInto) {

@@ -8,11 +8,11 @@
 #include <thread>
 #include <vector>
 
-#include "components/telemetry/telemetry.hpp"
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/components/telemetry/telemetry_source.hpp"
 
 namespace omma {
 namespace {
@@ -20,31 +20,9 @@ namespace {
 using namespace std::chrono_literals;
 
 /// Counts frame sets; the other messages stay as they are.
-class FrameSource final : public Component {
+class FrameSource final : public TelemetrySource {
  public:
-  Out<Frames> frames;
-  Out<DotLists> dots;
-  Out<Pairings> pairings;
-  Out<AttitudeEstimate> attitude;
-  Out<PoseEstimates> poses;
-  Out<UnknownObjects> objects;
-  Out<ImageChunk> image;
-  Out<HealthReport> health;
-  Out<TimingReport> timing;
-  Out<UtcReport> utc;
   std::string_view name() const override { return "frame"; }
-  void visit_ports(PortVisitor& visitor) const override {
-    visitor.output("frames", frames);
-    visitor.output("dots", dots);
-    visitor.output("pairings", pairings);
-    visitor.output("attitude", attitude);
-    visitor.output("poses", poses);
-    visitor.output("objects", objects);
-    visitor.output("image", image);
-    visitor.output("health", health);
-    visitor.output("timing", timing);
-    visitor.output("utc", utc);
-  }
   void step(const Tick& tick) noexcept override {
     frames->number = tick.number;
     dots->frame = tick.number;
@@ -103,16 +81,7 @@ int bench_blocked(int argc, char** argv) {
   Idle idle;
   Events events;
   Telemetry telemetry({}, events);
-  telemetry.frames.bind(frame.frames);
-  telemetry.dots.bind(frame.dots);
-  telemetry.pairings.bind(frame.pairings);
-  telemetry.attitude.bind(frame.attitude);
-  telemetry.poses.bind(frame.poses);
-  telemetry.objects.bind(frame.objects);
-  telemetry.image.bind(frame.image);
-  telemetry.health.bind(frame.health);
-  telemetry.timing.bind(frame.timing);
-  telemetry.utc.bind(frame.utc);
+  frame.feed(telemetry);
   TelemetryOutput output(telemetry, {});
   output.add(std::make_unique<BlockingSink>(phase));
   Lateness lateness(phase);

@@ -5,32 +5,24 @@
 #include <cmath>
 #include <numeric>
 
-#include "components/catalogue/observer.hpp"
-#include "sim/camera_renderer.hpp"
+#include "tests/sim/scenes.hpp"
 
 namespace omma::sim {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
-
-Scenario one_camera() {
-  Scenario scenario;
-  scenario.name = "test";
-  RigCamera camera;
-  camera.name = Name("cam0");
-  camera.lens = Lens::equidistant(400, 400, 130, {199.5, 199.5}, 1.6);
-  scenario.rig.cameras.push_back(camera);
+/// Looks along a skew axis and turns; stars to V 4, with noise.
+Scenario starlit_camera() {
+  Scenario scenario = one_camera();
+  scenario.rig.cameras[0].lens = Lens::equidistant(400, 400, 130, {199.5, 199.5}, 1.6);
   Sensor& sensor = scenario.sensors[0];
-  sensor.bits = 14;
   sensor.exposure = 1;
   sensor.zero_point = 20'000;
   sensor.read_noise = 5;
   sensor.full_well = 1e6;
   sensor.gain = 2;
   sensor.field = 170 * kDegree;
-  scenario.julian_date_utc = parse_utc("2026-01-01T00:00:00Z");
   scenario.faintest = 4;
-  scenario.frames = 1;
+  scenario.truth_minimum_snr = Scenario{}.truth_minimum_snr;
   scenario.rig_motion = Motion::constant({Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), Eigen::Vector3d::Zero()},
                                          Eigen::Vector3d::Zero(), {0, 0, 0.01});
   return scenario;
@@ -60,7 +52,7 @@ double light(const Rendered& r) {
 }
 
 TEST(Renderer, PutsStarsWhereTheLensDoesAndAsBrightAsTheyAre) {
-  const Scenario scenario = one_camera();
+  const Scenario scenario = starlit_camera();
   const Rendered r = render(scenario);
   ASSERT_GT(r.truth.size(), 50U);
   const SceneInstant now = scene_at(scenario, 0);
@@ -78,7 +70,7 @@ TEST(Renderer, PutsStarsWhereTheLensDoesAndAsBrightAsTheyAre) {
 // σ² of a Gaussian spot of s px in photon noise alone is s²/N (+ the pixel's part); the truth's information
 // can not promise more.
 TEST(Renderer, PromisesNoBetterPlacesThanPhotonsAllow) {
-  const Rendered r = render(one_camera());
+  const Rendered r = render(starlit_camera());
   for (const SpotTruth& t : r.truth) {
     const double electrons = 2 * t.flux;
     EXPECT_LT(t.information(0, 0), electrons / (0.7 * 0.7)) << t.spot.hr;
@@ -87,20 +79,20 @@ TEST(Renderer, PromisesNoBetterPlacesThanPhotonsAllow) {
 }
 
 TEST(Renderer, IsTheSameEveryTimeAndAnotherInAnotherFrame) {
-  const Scenario scenario = one_camera();
+  const Scenario scenario = starlit_camera();
   EXPECT_EQ(render(scenario).grey, render(scenario).grey);
   EXPECT_NE(render(scenario).grey, render(scenario, 1).grey);
 }
 
 TEST(Renderer, MotionBlurKeepsTheLight) {
-  Scenario scenario = one_camera();
+  Scenario scenario = starlit_camera();
   const double still = light(render(scenario));
   scenario.sensors[0].blur_samples = 8;
   EXPECT_NEAR(light(render(scenario)) / still, 1, 0.01);
 }
 
 TEST(Ground, HidesWhatIsBelowTheSkylineAndDimsWhatIsLow) {
-  Scenario scenario = one_camera();
+  Scenario scenario = starlit_camera();
   const Rendered open = render(scenario);
   Ground ground;
   ground.up = {1, 0, 0};

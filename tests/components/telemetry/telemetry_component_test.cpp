@@ -11,13 +11,13 @@
 #include <thread>
 
 #include "components/telemetry/log_sink.hpp"
-#include "components/telemetry/telemetry.hpp"
 #include "components/telemetry/telemetry_output.hpp"
 #include "fsw/kernel/clock.hpp"
 #include "fsw/kernel/memory_guard.hpp"
 #include "fsw/kernel/real_time_scope.hpp"
 #include "fsw/kernel/scheduler.hpp"
 #include "ground/recording.hpp"
+#include "tests/components/telemetry/telemetry_source.hpp"
 #include "tests/fsw/kernel/test_components.hpp"
 
 namespace omma {
@@ -42,33 +42,11 @@ telemetry::TelemetryNames names() {
 }
 
 /// All messages of a frame set, made from its number alone, as their components would write them.
-class VisionChain final : public Component {
+class VisionChain final : public TelemetrySource {
  public:
-  Out<Frames> frames;
-  Out<DotLists> dots;
-  Out<Pairings> pairings;
-  Out<AttitudeEstimate> attitude;
-  Out<PoseEstimates> poses;
-  Out<UnknownObjects> objects;
-  Out<ImageChunk> image;
-  Out<HealthReport> health;
-  Out<TimingReport> timing;
-  Out<UtcReport> utc;
   Events events;
 
   std::string_view name() const override { return "vision_chain"; }
-  void visit_ports(PortVisitor& visitor) const override {
-    visitor.output("frames", frames);
-    visitor.output("dots", dots);
-    visitor.output("pairings", pairings);
-    visitor.output("attitude", attitude);
-    visitor.output("poses", poses);
-    visitor.output("objects", objects);
-    visitor.output("image", image);
-    visitor.output("health", health);
-    visitor.output("timing", timing);
-    visitor.output("utc", utc);
-  }
   void step(const Tick& tick) noexcept override {
     const std::uint64_t n = tick.number;
     const TimeNs time = tick.time_ns;
@@ -124,18 +102,7 @@ struct Flight {
   Telemetry telemetry{names(), chain.events};
   TelemetryOutput output{telemetry, {kTested}};
 
-  Flight() {
-    telemetry.frames.bind(chain.frames);
-    telemetry.dots.bind(chain.dots);
-    telemetry.pairings.bind(chain.pairings);
-    telemetry.attitude.bind(chain.attitude);
-    telemetry.poses.bind(chain.poses);
-    telemetry.objects.bind(chain.objects);
-    telemetry.image.bind(chain.image);
-    telemetry.health.bind(chain.health);
-    telemetry.timing.bind(chain.timing);
-    telemetry.utc.bind(chain.utc);
-  }
+  Flight() { chain.feed(telemetry); }
   void step(std::uint64_t frame) {
     const Tick tick{frame, static_cast<TimeNs>(frame) * 100'000'000};
     chain.step(tick);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/approach/place_of_pose.hpp"
+#include "components/geometry/root_sum_square.hpp"
 
 namespace omma {
 namespace {
@@ -256,7 +257,8 @@ void Approach::see_brightness(Followed& body, std::size_t camera, const LightSig
   const double flux = expects ? std::exp(body.range.expected_brightness() + zero) : light.flux;
   // While its range is not known the light may be more than one dot.
   const double part = body.range.log_range_sigma() < kRangeKnown ? 0.0 : kPartSigma;
-  const double sigma = std::hypot(std::hypot(light.flux_sigma, light.unsure) / flux, zero_sigma, part);
+  const double sigma =
+      root_sum_square(root_sum_square(light.flux_sigma, light.unsure) / flux, zero_sigma, part);
   const double brightness = std::log(light.flux) - zero;
   // A thing beside it, or a glint: not for once. Many in a row, and the light has changed.
   const bool fits = body.range.fits(brightness, sigma);

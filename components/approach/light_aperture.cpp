@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -25,7 +27,7 @@ RingLevel ring_level(const ImageView& image, const Aperture& aperture, double ra
   for (int v = top; v <= aperture.centre.y() + outer; ++v) {
     const Pixel* row = image.row<Pixel>(v);
     for (int u = left; u <= aperture.centre.x() + outer; ++u) {
-      const double distance = std::hypot(u - aperture.centre.x(), v - aperture.centre.y());
+      const double distance = root_sum_square(u - aperture.centre.x(), v - aperture.centre.y());
       if (distance > inner && distance <= outer && count < levels.size()) levels[count++] = row[u];
     }
   }

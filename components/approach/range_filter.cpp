@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/approach/photometric_zero.hpp"
+#include "components/geometry/root_sum_square.hpp"
 
 namespace omma {
 namespace {
@@ -62,7 +63,7 @@ void RangeFilter::see_brightness(double log_brightness, double sigma) noexcept {
 
 bool RangeFilter::fits(double log_brightness, double sigma) const noexcept {
   constexpr double kSigmas = 4;
-  const double spread = std::hypot(sigma, parameters_.brightness_floor, expected_brightness_sigma());
+  const double spread = root_sum_square(sigma, parameters_.brightness_floor, expected_brightness_sigma());
   return std::abs(log_brightness - expected_brightness()) <= kSigmas * spread;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -36,7 +38,7 @@ OrbitElements elements_through(const OrbitState& state, bool j2) {
   elements.j2 = j2;
   elements.semi_major_axis = 1 / (2 / r.norm() - v.squaredNorm() / kEarthGravity);
   elements.eccentricity = to_perigee.norm();
-  elements.inclination = std::atan2(std::hypot(normal.x(), normal.y()), normal.z());
+  elements.inclination = std::atan2(root_sum_square(normal.x(), normal.y()), normal.z());
   elements.ascending_node = std::atan2(node.y(), node.x());
   const Eigen::Vector3d perigee = elements.eccentricity < kNone ? node : to_perigee.normalized();
   elements.argument_of_perigee = angle_from(node, perigee);

@@ -8,6 +8,7 @@
 
 #include "components/catalogue/apparent_place.hpp"
 #include "components/catalogue/earth.hpp"
+#include "components/geometry/root_sum_square.hpp"
 
 namespace omma {
 namespace {
@@ -166,7 +167,7 @@ SolarSystem solar_system(const Observer& observer, double position_sigma,
     place.magnitude = static_cast<float>(magnitude_of(place.body, from_sun, from_observer));
     const double theory =
         place.body == SolarBody::kMoon ? kMoonRms : kBodies[b].rms / std::numbers::sqrt3 / place.distance;
-    place.sigma = std::hypot(theory, position_sigma / place.distance);
+    place.sigma = root_sum_square(theory, position_sigma / place.distance);
     place.direction = from_observer / place.distance;
     place.up = seen.observe(place.direction);
     place.direction = place.direction.unaryExpr(&rounded);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -44,7 +46,7 @@ double CaltechModel::radius_limit(double plane_radius) const noexcept {
       Eigen::Matrix2d j;
       const Eigen::Vector2d seen = distort({r * std::cos(angle), r * std::sin(angle)}, j);
       const double least_eigenvalue =
-          0.5 * (j(0, 0) + j(1, 1)) - std::hypot(0.5 * (j(0, 0) - j(1, 1)), j(0, 1));
+          0.5 * (j(0, 0) + j(1, 1)) - root_sum_square(0.5 * (j(0, 0) - j(1, 1)), j(0, 1));
       if (!(least_eigenvalue > kSlowestGrowth)) return good;
       outside = outside && seen.norm() > plane_radius;
     }

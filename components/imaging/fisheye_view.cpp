@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 
 FisheyeView::FisheyeView(const FisheyeSettings& settings)
@@ -16,7 +18,7 @@ FisheyeView::FisheyeView(const FisheyeSettings& settings)
 }
 
 bool FisheyeView::project(const Eigen::Vector3d& direction, Eigen::Vector2d& pixel) const noexcept {
-  const double across = std::hypot(direction.x(), direction.y());
+  const double across = root_sum_square(direction.x(), direction.y());
   const double angle = std::atan2(across, direction.z());
   if (angle > 0.5 * settings_.field) return false;
   const double radius = across > 0 ? angle / angle_per_pixel_ / across : 0;
@@ -29,7 +31,7 @@ bool FisheyeView::direction(int row, int column, Eigen::Vector3d& ray) const noe
   const double centre = 0.5 * (size() - 1);
   const double x = column - centre;
   const double y = row - centre;
-  const double radius = std::hypot(x, y);
+  const double radius = root_sum_square(x, y);
   const double angle = radius * angle_per_pixel_;
   if (angle > 0.5 * settings_.field) return false;
   const double s = radius > 0 ? std::sin(angle) / radius : 0;

@@ -5,13 +5,15 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 
 using std::numbers::pi;
 
 Eigen::Vector2d panorama_pixel(const Eigen::Vector3d& direction, int width) noexcept {
   const double azimuth = std::atan2(direction.y(), direction.x());
-  const double height = std::atan2(direction.z(), std::hypot(direction.x(), direction.y()));
+  const double height = std::atan2(direction.z(), root_sum_square(direction.x(), direction.y()));
   const double turn = (azimuth < 0 ? azimuth + 2 * pi : azimuth) / (2 * pi);
   return {width * (1 - turn) - 0.5, 0.5 * width * (0.5 - height / pi) - 0.5};
 }

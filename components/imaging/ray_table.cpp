@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -102,7 +104,7 @@ SeenPixel RayTable::look_exactly(const Eigen::Vector3d& direction, int camera) c
   // Distance from the rim of the image, as an angle: the border of the sensor or the end of the lens.
   const double border_px = std::min(std::min(pixel.x(), entry.lens.width() - 1 - pixel.x()),
                                     std::min(pixel.y(), entry.lens.height() - 1 - pixel.y()));
-  const double off_axis = std::atan2(std::hypot(ray.x(), ray.y()), ray.z());
+  const double off_axis = std::atan2(root_sum_square(ray.x(), ray.y()), ray.z());
   const double to_lens_end = entry.lens.max_angle() - off_axis - kDarkRim * entry.lens.pixel_angle();
   const double margin = std::min((border_px + 0.5) * entry.lens.pixel_angle(), to_lens_end);
   if (margin < 0) return {};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -47,7 +49,7 @@ void RigExposures::take(const Frames& frames) noexcept {
     to.sensor.read_noise = sensor.read_noise;
     if (!sensor.linear) continue;
     any = true;
-    const double noise = std::hypot(sensor.read_noise / to.sensor.gain, std::sqrt(1.0 / 12));
+    const double noise = root_sum_square(sensor.read_noise / to.sensor.gain, std::sqrt(1.0 / 12));
     const double least = to.unit * noise / exposure;
     const double most = to.unit * (white - to.black) / exposure;
     least_ = told_ == 0 && least_ == 0 ? least : std::min(least_, least);

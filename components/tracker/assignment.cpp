@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 
 void Assigner::offer(Best& best, Best& second, float distance2, float weight, std::uint16_t index) noexcept {
@@ -22,7 +24,7 @@ namespace {
 double largest_sigma(const Eigen::Matrix2d& c) {
   const double half_trace = 0.5 * (c(0, 0) + c(1, 1));
   const double half_difference = 0.5 * (c(0, 0) - c(1, 1));
-  return std::sqrt(half_trace + std::hypot(half_difference, c(0, 1)));
+  return std::sqrt(half_trace + root_sum_square(half_difference, c(0, 1)));
 }
 
 double mahalanobis2(const Eigen::Vector2d& d, const Eigen::Matrix2d& c) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/geometry/root_sum_square.hpp"
+
 namespace omma {
 namespace {
 
@@ -46,7 +48,7 @@ void SolarPairing::claim_discs(SeenDots& dots, const RigCamera& camera, std::siz
   for (const SolarBodyPlace& place : places_) {
     if (!is_disc(place.body) || !place.up) continue;
     PredictedPoint point;
-    if (!prediction.point(place.direction, std::hypot(place.sigma, 0.5 * place.radius), point)) continue;
+    if (!prediction.point(place.direction, root_sum_square(place.sigma, 0.5 * place.radius), point)) continue;
     point.covariance += (gate.floor_px * gate.floor_px + kSmear * kSmear) * Eigen::Matrix2d::Identity();
     const int brightest = brightest_within(dots, camera_index, point, gate.chi2);
     if (brightest < 0) continue;

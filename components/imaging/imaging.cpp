@@ -1,7 +1,6 @@
 #include "components/imaging/imaging.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -31,6 +30,7 @@ Imaging::Imaging(const ImagingParameters& parameters, const Rig& rig, Events& ev
       standing_product_(parameters.composite == ImageComposite::kFused    ? Product::kFused
                         : parameters.composite != ImageComposite::kSingle ? Product::kComposite
                                                                           : Product::kGrey),
+      requests_(mosaic_.table()),
       packer_(parameters.compress),
       rows_(ChunkPacker::kMostPixels),
       exposures_(parameters.sensors),
@@ -80,46 +80,8 @@ bool Imaging::fits_a_chunk(const Picture& picture, Product product) const noexce
   return picture.width() > 0 && static_cast<std::size_t>(picture.width()) <= room;
 }
 
-// The field is judged here, while the sender can still be told; 0 stands for the mission's.
-CommandOutcome Imaging::receive_look(const Command& command, bool fused) noexcept {
-  constexpr double kDegree = std::numbers::pi / 180;
-  constexpr double kWidestView = 0.99 * 180;  // of a pinhole [deg]
-  PictureRequest wanted;
-  wanted.kind = kRequestKinds[static_cast<std::size_t>(command.arguments[0])];
-  wanted.pan = kDegree * command.arguments[1];
-  wanted.tilt = kDegree * command.arguments[2];
-  wanted.field = kDegree * command.arguments[3];
-  wanted.fused = fused;
-  const bool is_view = wanted.kind == ImageKind::kView || wanted.kind == ImageKind::kViewRig;
-  if (is_view && command.arguments[3] > kWidestView)
-    return CommandOutcome::refused(CommandReason::kArgumentRange, 3);
-  return request(wanted) ? CommandOutcome::done() : CommandOutcome::refused(CommandReason::kBusy);
-}
-
-CommandOutcome Imaging::receive_region(const Command& command) noexcept {
-  const auto number = [&command](std::size_t k) { return static_cast<int>(command.arguments[k]); };
-  const int camera = number(0);
-  if (camera >= mosaic_.table().cameras()) return CommandOutcome::refused(CommandReason::kArgumentRange, 0);
-  const int width = mosaic_.table().width(camera);
-  const int height = mosaic_.table().height(camera);
-  PictureRequest wanted;
-  wanted.kind = ImageKind::kCamera;
-  wanted.region = {camera, number(1), number(2), number(3), number(3)};
-  if (number(3) == 0) {
-    wanted.region.width = width - number(1);
-    wanted.region.height = height - number(2);
-  }
-  if (!wanted.region.lies_in(width, height)) {
-    const std::uint8_t fault = number(1) >= width ? 1 : number(2) >= height ? 2 : 3;
-    return CommandOutcome::refused(CommandReason::kArgumentRange, fault);
-  }
-  return request(wanted) ? CommandOutcome::done() : CommandOutcome::refused(CommandReason::kBusy);
-}
-
 CommandOutcome Imaging::receive(const Command& command, const Tick& /*tick*/) noexcept {
-  if (command.opcode == kRequestPicture.id) return receive_look(command, false);
-  if (command.opcode == kRequestFused.id) return receive_look(command, true);
-  if (command.opcode == kRequestRegion.id) return receive_region(command);
+  if (command.opcode != kStartPicture.id) return requests_.receive(command);
   between_ = true;
   asked_ = false;
   frame_sets_ = parameters_.period;

@@ -19,55 +19,17 @@
 #include "components/imaging/fused_strip.hpp"
 #include "components/imaging/grey_scale.hpp"
 #include "components/imaging/image_chunk.hpp"
-#include "components/imaging/imaging_commands.hpp"
+#include "components/imaging/imaging_parameters.hpp"
 #include "components/imaging/picture.hpp"
+#include "components/imaging/picture_requests.hpp"
 #include "components/imaging/rig_exposures.hpp"
 #include "fsw/kernel/component.hpp"
 #include "fsw/kernel/port.hpp"
-#include "fsw/kernel/spsc_queue.hpp"
 #include "fsw/services/command.hpp"
 #include "fsw/services/events.hpp"
 #include "fsw/services/parameter_input.hpp"
 
 namespace omma {
-
-struct ImagingParameters : PictureSettings {
-  ImageComposite composite = ImageComposite::kSingle;
-  int composed = 1;          ///< pictures of a composite, to 1000
-  int composed_rows = 8;     ///< rows a step while a composite is made, or a strip is fused
-  bool compress = false;     ///< rows without loss (image_coder.hpp): about twice as many in a chunk
-  int period = 0;            ///< least number of frame sets from the start of a picture to the next
-  bool raw = false;          ///< of kCamera: the camera's own grey levels at full depth, of one instant
-  int fused_frame_sets = 4;  ///< that each strip of a fused picture is made of
-  int fused_bits = 12;       ///< of a pixel of a fused picture, 8 to 16
-  std::array<CameraSensor, limits::kCameras> sensors{};
-  RayTableSettings table;
-  Footprint footprint = Footprint::kPeak;
-};
-
-inline constexpr ParameterDescriptor kImagingPeriod{
-    .id = 50,
-    .name = "imaging.period",
-    .text = "least number of frame sets from the start of a picture to the next",
-    .value = {
-        .name = "value", .unit = "frame sets", .type = ValueType::kInteger, .least = 1, .most = 100000}};
-
-inline constexpr std::array kImagingParameters{kImagingPeriod};
-
-template <class Visit>
-void visit_parameters(ImagingParameters& p, Visit&& visit) {
-  visit(kImagingPeriod, p.period);
-}
-
-/// A picture asked for while flying: made once, after the one that is being made. Angles as PictureSettings.
-struct PictureRequest {
-  ImageKind kind = ImageKind::kView;
-  double pan = 0;         ///< [rad]
-  double tilt = 0;        ///< [rad]
-  double field = 0;       ///< of a view or fisheye [rad]; 0: the mission's
-  bool fused = false;     ///< of several exposures; not of kCamera
-  CameraRegion region{};  ///< of kCamera; at full depth
-};
 
 class Imaging final : public Component, public CommandReceiver {
  public:
@@ -112,8 +74,6 @@ class Imaging final : public Component, public CommandReceiver {
   void set_levels(bool anew) noexcept;
   bool take_request(const Tick& tick) noexcept;
   bool take(const PictureRequest& wanted) noexcept;
-  CommandOutcome receive_look(const Command& command, bool fused) noexcept;
-  CommandOutcome receive_region(const Command& command) noexcept;
   int make_rows(int first_row, int rows) noexcept;
   void make() noexcept;
   void compose() noexcept;
@@ -131,7 +91,7 @@ class Imaging final : public Component, public CommandReceiver {
   Picture requested_;  // of the newest request
   Product standing_product_, requested_product_ = Product::kGrey;
   bool asked_ = false;
-  SpscQueue<PictureRequest, 4> requests_;
+  PictureRequests requests_;
   std::uint32_t refused_ = 0;
   std::optional<Composite> composite_;
   int pass_ = 0;  // of a composite; rows are sent after the last

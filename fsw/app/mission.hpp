@@ -13,7 +13,7 @@
 #include "components/exposure/exposure_control.hpp"
 #include "components/extractor/camera_dots.hpp"
 #include "components/geometry/rig.hpp"
-#include "components/imaging/imaging.hpp"
+#include "components/imaging/imaging_parameters.hpp"
 #include "components/pose/relative_pose.hpp"
 #include "components/surveillance/surveillance_parameters.hpp"
 #include "components/telemetry/frame_stages.hpp"

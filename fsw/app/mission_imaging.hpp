@@ -3,7 +3,7 @@
 #pragma once
 
 #include "components/geometry/rig.hpp"
-#include "components/imaging/imaging.hpp"
+#include "components/imaging/imaging_parameters.hpp"
 #include "fsw/services/toml_table.hpp"
 
 namespace omma {

@@ -40,7 +40,7 @@ int tell(const Arguments& arguments) {
 
 void add_events(CLI::App& app, CommandContext& context) {
   CLI::App* command =
-      app.add_subcommand("events", "tell the events that a flight program's event store kept");
+      app.add_subcommand("events", "Events that a flight program's event store kept");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("file", arguments->file, "event store: what `omma-fsw --events FILE` keeps")
       ->required();

@@ -1,5 +1,6 @@
 // Attitude from paired stars: error over the Cramér–Rao bound, NEES, time, iterations. Three 122° cameras on
 // the faces of a tetrahedron, 30 directions spread over what they see, 0.1 px noise of a 1024 px image.
+// Option: --trials N (default 2000).
 #include <Eigen/LU>
 #include <cstdio>
 #include <numbers>

@@ -1,5 +1,7 @@
 // The extractor on images whose truth is known: accuracy against the Cramér–Rao bound, honesty of its
 // covariances, recall, false dots, and time beside a memcpy of the same image.
+// Options: --dots N of each row of accuracy (default 10000; 0: times only), --repeats N of each time (301),
+// --frames FOLDER of other frames.
 #include <cstdio>
 #include <memory>
 

@@ -1,5 +1,6 @@
 // The extraction pipelines side by side on the same rendered frames with truth: star frames, frames with the
 // card, frames with the Moon.
+// Options: --frames FOLDER, --mission FILE, --every N frame sets (default 20), --picture FILE to draw into.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstdio>

@@ -1,5 +1,6 @@
 // Target identification: share solved, wrong and left open, time, on clouds of dots with clutter and hidden
 // targets (card_problem.hpp).
+// Option: --trials N a row (default 200).
 #include <Eigen/LU>
 #include <cstdio>
 

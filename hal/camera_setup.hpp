@@ -30,8 +30,9 @@ struct CameraSetup {
   BayerUse bayer = BayerUse::kGrey;
   int bits = 0;     ///< that the sensor fills of each pixel: the white level is 2^bits - 1; 0: the format's
   int buffers = 4;  ///< in the device's queue
-  bool dma_buf = false;   ///< buffers exported as DMA-buf file descriptors, read between sync marks
-  int timeout_ms = 2000;  ///< silence after which the stream is started anew
+  bool dma_buf = false;  ///< buffers are DMA-bufs, read between sync marks: the device's own, exported, or
+  std::string memory_from{};  ///< those of another owner: path of a DMA heap or of another video device
+  int timeout_ms = 2000;      ///< silence after which the stream is started anew
   std::vector<CameraControl> controls{};
   std::vector<CameraControl> control_names{};  ///< our name, the device's: before the usual mapping
 };

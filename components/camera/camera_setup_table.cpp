@@ -24,6 +24,13 @@ bool read_memory(const TomlTable& camera) {
   return memory == "dma-buf";
 }
 
+std::string read_memory_from(const TomlTable& camera, bool dma_buf) {
+  const std::string owner = camera.text("memory_from", "");
+  if (!owner.empty() && !dma_buf)
+    throw camera.error("memory_from", R"(memory = "dma-buf" beside it)", "mmap");
+  return owner;
+}
+
 }  // namespace
 
 CameraSetup read_camera_setup(const TomlTable& camera, int width, int height, double frame_rate_hz) {
@@ -38,6 +45,7 @@ CameraSetup read_camera_setup(const TomlTable& camera, int width, int height, do
   setup.bits = static_cast<int>(camera.integer("bits", {8, 16}, 0));
   setup.buffers = static_cast<int>(camera.integer("buffers", {2, 32}, setup.buffers));
   setup.dma_buf = read_memory(camera);
+  setup.memory_from = read_memory_from(camera, setup.dma_buf);
   setup.timeout_ms = static_cast<int>(camera.integer("timeout_ms", {10, 60000}, setup.timeout_ms));
   setup.controls = read_words(camera, "controls");
   setup.control_names = read_words(camera, "control_names");

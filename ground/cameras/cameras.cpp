@@ -8,6 +8,7 @@
 #include "fsw/kernel/input_error.hpp"
 #include "hal/libcamera/libcamera_child.hpp"
 #include "hal/live/pixel_layout.hpp"
+#include "hal/v4l2/lent_memory.hpp"
 #include "hal/v4l2/v4l2_controls.hpp"
 #include "hal/v4l2/v4l2_device.hpp"
 
@@ -91,12 +92,18 @@ int list_cameras(const std::string& only) {
     const v4l2::Description camera = v4l2::describe(device, path);
     std::printf("%s  \"%s\" at %s, driver %s (V4L2)\n", path.c_str(), camera.card.c_str(), camera.bus.c_str(),
                 camera.driver.c_str());
+    std::printf("  memory  %s\n", camera.memory.c_str());
     print_formats(camera);
     print_controls(camera);
     print_table(camera);
     ++found;
   }
-  if (only.empty()) found += list_by_libcamera();
+  if (only.empty()) {
+    found += list_by_libcamera();
+    for (const std::string& heap : dma_heaps())
+      std::printf("%s  DMA heap (memory_from, for devices that take memory of another owner's)\n",
+                  heap.c_str());
+  }
   if (found == 0) std::printf("no camera found: no /dev/video* captures\n");
   return found > 0 ? 0 : 1;
 }

@@ -131,6 +131,9 @@ void add_capture(CLI::App& app, CommandContext& context) {
   command->add_option("--bayer", a.bayer, "A colour mosaic becomes: grey, green or raw")
       ->check(CLI::IsMember({"grey", "green", "raw"}));
   command->add_option("--memory", a.memory, "mmap or dma-buf")->check(CLI::IsMember({"mmap", "dma-buf"}));
+  command->add_option("--memory-from", a.memory_from,
+                      "Whose DMA-bufs the device fills: a DMA heap (/dev/dma_heap/system) or another video "
+                      "device; its own where left out");
   command->add_option("--rate", a.rate_hz, "Asked of the device [Hz]")->check(CLI::Range(0.0, 1000.0));
   command->add_option("--timeout-ms", a.timeout_ms, "Silence after which the stream is started anew")
       ->check(CLI::Range(10, 60000));

@@ -72,6 +72,9 @@ std::vector<CaptureCamera> capture_cameras(const CaptureArguments& arguments) {
                 : arguments.bayer == "green" ? BayerUse::kGreen
                                              : BayerUse::kGrey;
   setup.dma_buf = arguments.memory == "dma-buf";
+  setup.memory_from = arguments.memory_from;
+  if (!setup.memory_from.empty() && !setup.dma_buf)
+    throw InputError(kCommand, 0, "--memory-from", "--memory dma-buf beside it", arguments.memory);
   for (const std::string& control : arguments.controls) setup.controls.push_back(read_control(control));
   std::vector<CaptureCamera> cameras;
   for (const std::string& camera : arguments.cameras) cameras.push_back(read_camera(camera, setup));

@@ -21,6 +21,7 @@ struct CaptureArguments {
   std::string format = "GREY";
   std::string bayer = "grey";
   std::string memory = "mmap";
+  std::string memory_from;
   double rate_hz = 0;
   int buffers = 8;
   int timeout_ms = 2000;

@@ -87,6 +87,31 @@ std::vector<std::string> sizes_of(const Device& device, std::uint32_t fourcc) {
   return sizes;
 }
 
+int request_buffers(const Device& device, std::uint32_t memory, std::uint32_t count) {
+  v4l2_requestbuffers request{};
+  request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  request.memory = memory;
+  request.count = count;
+  return device.control(VIDIOC_REQBUFS, &request);
+}
+
+// Tried, with buffers of the format it has: the kernel has no call that only asks.
+std::string memory_of(const Device& device) {
+  if (const int error = request_buffers(device, V4L2_MEMORY_MMAP, 2); error == EBUSY) {
+    return "not known while another program uses it";
+  } else if (error != 0) {
+    return "no buffers (" + std::string(std::strerror(error)) + ")";
+  }
+  std::string memory = "mmap";
+  if (int file = -1; export_buffer(device, V4L2_BUF_TYPE_VIDEO_CAPTURE, 0, O_RDONLY, file) == 0) {
+    ::close(file);
+    memory += ", dma-buf";
+  }
+  request_buffers(device, V4L2_MEMORY_MMAP, 0);
+  if (request_buffers(device, V4L2_MEMORY_DMABUF, 0) == 0) memory += ", dma-buf of another owner's";
+  return memory;
+}
+
 }  // namespace
 
 int Device::open(const std::string& path) noexcept {
@@ -157,6 +182,7 @@ Description describe(const Device& device, const std::string& path) {
     description.formats.push_back(
         {fourcc_name(format.pixelformat), text_of(format.description), sizes_of(device, format.pixelformat)});
   description.controls = controls_of(device);
+  description.memory = memory_of(device);
   return description;
 }
 
@@ -175,6 +201,7 @@ std::vector<std::string> device_paths() {
   }
   std::sort(found.begin(), found.end());
   std::vector<std::string> paths;
+  paths.reserve(found.size());
   for (auto& [number, path] : found) paths.push_back(std::move(path));
   return paths;
 }
@@ -189,6 +216,17 @@ std::string find_device(const std::string& name) {
       return path;
   }
   return {};
+}
+
+int export_buffer(const Device& device, std::uint32_t type, std::uint32_t index, int access,
+                  int& file) noexcept {
+  v4l2_exportbuffer exported{};
+  exported.type = type;
+  exported.index = index;
+  exported.flags = static_cast<std::uint32_t>(access | O_CLOEXEC);
+  const int error = device.control(VIDIOC_EXPBUF, &exported);
+  if (error == 0) file = exported.fd;
+  return error;
 }
 
 int set_control(const Device& device, const Control& control, std::int64_t value) noexcept {

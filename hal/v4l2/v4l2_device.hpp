@@ -37,6 +37,8 @@ struct Description {
   std::string driver;
   std::vector<Format> formats;
   std::vector<Control> controls;
+  std::string
+      memory;  ///< what its buffers can be: "mmap, dma-buf, dma-buf of another owner's", or why unknown
 };
 
 /// An open device; every call is repeated where a signal broke it.
@@ -69,6 +71,11 @@ std::vector<std::string> device_paths();
 /// The path itself, or that of the first device whose card or bus is called `name`; empty where there is
 /// none.
 std::string find_device(const std::string& name);
+/// A buffer of the device's queue `type` as a DMA-buf, for the caller to close.
+/// @param access  O_RDONLY or O_RDWR
+/// @return 0, or the errno; then `file` is as it was
+int export_buffer(const Device& device, std::uint32_t type, std::uint32_t index, int access,
+                  int& file) noexcept;
 /// @return 0, or the errno
 int set_control(const Device& device, const Control& control, std::int64_t value) noexcept;
 std::string fourcc_name(std::uint32_t fourcc);

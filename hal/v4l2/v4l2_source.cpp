@@ -28,14 +28,6 @@ std::string format_text(const std::string& name, unsigned width, unsigned height
   return name + " of " + std::to_string(width) + " x " + std::to_string(height) + " px";
 }
 
-v4l2_buffer buffer_query(std::uint32_t index) {
-  v4l2_buffer buffer{};
-  buffer.type = kCapture;
-  buffer.memory = V4L2_MEMORY_MMAP;
-  buffer.index = index;
-  return buffer;
-}
-
 // Drivers that do not say which clock they stamp by are believed where it can be the monotonic one; for
 // others it is the instant the frame is taken out.
 TimeNs stamp_of(const v4l2_buffer& filled) {
@@ -50,10 +42,16 @@ TimeNs stamp_of(const v4l2_buffer& filled) {
   return clock == V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN && plausible ? stamp : now;
 }
 
-void mark_reading(int dma_file, std::uint64_t when) {
+// Caches are brought up to date where the machine needs it. False where the memory's owner cannot.
+bool mark_reading(int dma_file, std::uint64_t when) {
+  constexpr int kAttempts = 100;  // a signal, or a fence still waited for
   dma_buf_sync sync{};
   sync.flags = DMA_BUF_SYNC_READ | when;
-  ::ioctl(dma_file, DMA_BUF_IOCTL_SYNC, &sync);
+  for (int i = 0; i < kAttempts; ++i) {
+    if (::ioctl(dma_file, DMA_BUF_IOCTL_SYNC, &sync) == 0) return true;
+    if (errno != EINTR && errno != EAGAIN) return false;
+  }
+  return false;
 }
 
 }  // namespace
@@ -61,6 +59,7 @@ void mark_reading(int dma_file, std::uint64_t when) {
 V4l2Source::V4l2Source(CameraSetup setup)
     : setup_(std::move(setup)), layout_(&layout_of(setup_)), shape_(shape_of(setup_)) {
   if (setup_.buffers < 2 || setup_.buffers > 32) refuse("buffers", "2 to 32", std::to_string(setup_.buffers));
+  if (borrows() && !setup_.dma_buf) refuse("memory_from", R"(memory = "dma-buf")", R"("mmap")");
 }
 
 void V4l2Source::refuse(std::string_view field, const std::string& expected, const std::string& found) const {
@@ -79,6 +78,7 @@ void V4l2Source::start() {
     set_rate();
     v4l2::apply_controls(device_, setup_);
     find_exposure();
+    request_buffers();
     map_buffers();
     int type = kCapture;
     require(device_.control(VIDIOC_STREAMON, &type), "device", "a stream from " + setup_.device);
@@ -113,6 +113,7 @@ void V4l2Source::set_format() {
   if (given != wanted) refuse("format", wanted + " from " + setup_.device, given);
   const auto packed = std::ptrdiff_t{layout_->bytes} * static_cast<std::ptrdiff_t>(format.fmt.pix.width);
   stride_ = std::max(packed, static_cast<std::ptrdiff_t>(format.fmt.pix.bytesperline));
+  frame_bytes_ = format.fmt.pix.sizeimage;
 }
 
 void V4l2Source::set_rate() const {
@@ -145,44 +146,74 @@ bool V4l2Source::apply(const CameraSettings& settings) noexcept {
   return true;
 }
 
-void V4l2Source::map_buffers() {
+v4l2_buffer V4l2Source::buffer_query(std::uint32_t index) const noexcept {
+  v4l2_buffer buffer{};
+  buffer.type = kCapture;
+  buffer.memory = borrows() ? V4L2_MEMORY_DMABUF : V4L2_MEMORY_MMAP;
+  buffer.index = index;
+  return buffer;
+}
+
+void V4l2Source::request_buffers() {
   v4l2_requestbuffers request{};
   request.type = kCapture;
-  request.memory = V4L2_MEMORY_MMAP;
+  request.memory = borrows() ? V4L2_MEMORY_DMABUF : V4L2_MEMORY_MMAP;
   request.count = static_cast<std::uint32_t>(setup_.buffers);
-  require(device_.control(VIDIOC_REQBUFS, &request), "buffers", "memory for frames of " + setup_.device);
+  require(device_.control(VIDIOC_REQBUFS, &request), borrows() ? "memory_from" : "buffers",
+          borrows() ? setup_.device + " to fill memory of another owner's"
+                    : "memory for frames of " + setup_.device);
   if (request.count < 2) refuse("buffers", "at least 2 of " + setup_.device, std::to_string(request.count));
   buffers_.resize(request.count);
-  for (std::uint32_t i = 0; i < request.count; ++i) {
-    v4l2_buffer about = buffer_query(i);
-    require(device_.control(VIDIOC_QUERYBUF, &about), "buffers", "buffers of " + setup_.device);
-    map(buffers_[i], about);
-    if (!queue(i)) refuse("buffers", "buffers that " + setup_.device + " takes", std::strerror(errno));
+  if (borrows()) borrow_buffers();
+}
+
+void V4l2Source::borrow_buffers() {
+  if (const int error = lender_.open(setup_.memory_from); error != 0)
+    refuse("memory_from", "a DMA heap or a video device that exports its buffers",
+           setup_.memory_from + ": " + std::strerror(error));
+  const std::string wanted = std::to_string(buffers_.size()) + " DMA-bufs of " +
+                             std::to_string(frame_bytes_) + " bytes from " + setup_.memory_from;
+  require(lender_.reserve(buffers_.size(), frame_bytes_), "memory_from", wanted);
+  for (std::size_t i = 0; i < buffers_.size(); ++i)
+    require(lender_.lend(i, buffers_[i].dma_file, buffers_[i].size), "memory_from", wanted);
+}
+
+void V4l2Source::map_buffers() {
+  for (std::uint32_t i = 0; i < buffers_.size(); ++i) {
+    Buffer& buffer = buffers_[i];
+    if (borrows()) {
+      map(buffer, buffer.dma_file, 0);
+    } else {
+      v4l2_buffer about = buffer_query(i);
+      require(device_.control(VIDIOC_QUERYBUF, &about), "buffers", "buffers of " + setup_.device);
+      buffer.size = about.length;
+      if (setup_.dma_buf) {
+        require(v4l2::export_buffer(device_, kCapture, i, O_RDONLY, buffer.dma_file), "buffers",
+                "a device that exports DMA-buf; use \"mmap\" where it does not");
+        map(buffer, buffer.dma_file, 0);
+      } else {
+        map(buffer, device_.file(), about.m.offset);
+      }
+    }
+    if (const int error = queue(i); error != 0)
+      refuse(borrows() ? "memory_from" : "buffers", "buffers that " + setup_.device + " takes",
+             (borrows() ? "those of " + setup_.memory_from + ": " : "") + std::strerror(error));
   }
 }
 
-void V4l2Source::map(Buffer& buffer, const v4l2_buffer& about) {
-  int file = device_.file();
-  off_t offset = about.m.offset;
-  if (setup_.dma_buf) {
-    v4l2_exportbuffer exported{};
-    exported.type = kCapture;
-    exported.index = about.index;
-    exported.flags = O_RDONLY | O_CLOEXEC;
-    require(device_.control(VIDIOC_EXPBUF, &exported), "buffers",
-            "a device that exports DMA-buf; use \"mmap\" where it does not");
-    buffer.dma_file = file = exported.fd;
-    offset = 0;
-  }
-  void* const memory = ::mmap(nullptr, about.length, PROT_READ, MAP_SHARED, file, offset);
+void V4l2Source::map(Buffer& buffer, int file, off_t offset) {
+  void* const memory = ::mmap(nullptr, buffer.size, PROT_READ, MAP_SHARED, file, offset);
   if (memory == MAP_FAILED) refuse("buffers", "buffers that can be mapped", std::strerror(errno));
   buffer.memory = memory;
-  buffer.size = about.length;
 }
 
-bool V4l2Source::queue(std::uint32_t index) const noexcept {
+int V4l2Source::queue(std::uint32_t index) const noexcept {
   v4l2_buffer buffer = buffer_query(index);
-  return device_.control(VIDIOC_QBUF, &buffer) == 0;
+  if (borrows()) {
+    buffer.m.fd = buffers_[index].dma_file;
+    buffer.length = static_cast<std::uint32_t>(buffers_[index].size);
+  }
+  return device_.control(VIDIOC_QBUF, &buffer);
 }
 
 void V4l2Source::stop() noexcept {
@@ -197,6 +228,7 @@ void V4l2Source::stop() noexcept {
   }
   buffers_.clear();
   device_.close();
+  lender_.close();
 }
 
 bool V4l2Source::holds_whole_image(const v4l2_buffer& filled) const noexcept {
@@ -206,10 +238,10 @@ bool V4l2Source::holds_whole_image(const v4l2_buffer& filled) const noexcept {
          static_cast<std::ptrdiff_t>(buffers_[filled.index].size) >= rows * stride_;
 }
 
-void V4l2Source::read_out(const Buffer& buffer, std::byte* pixels) const noexcept {
-  if (buffer.dma_file >= 0) mark_reading(buffer.dma_file, DMA_BUF_SYNC_START);
+bool V4l2Source::read_out(const Buffer& buffer, std::byte* pixels) const noexcept {
+  if (buffer.dma_file >= 0 && !mark_reading(buffer.dma_file, DMA_BUF_SYNC_START)) return false;
   to_grey(*layout_, setup_.bayer, static_cast<const std::byte*>(buffer.memory), stride_, shape_, pixels);
-  if (buffer.dma_file >= 0) mark_reading(buffer.dma_file, DMA_BUF_SYNC_END);
+  return buffer.dma_file < 0 || mark_reading(buffer.dma_file, DMA_BUF_SYNC_END);
 }
 
 Taken V4l2Source::take(std::byte* pixels, int timeout_ms) noexcept {
@@ -224,11 +256,10 @@ Taken V4l2Source::take(std::byte* pixels, int timeout_ms) noexcept {
                                                                                    : TakeStatus::kGone};
   }
   Taken taken{TakeStatus::kDamaged, stamp_of(filled), filled.sequence};
-  if (filled.index < buffers_.size() && holds_whole_image(filled)) {
-    read_out(buffers_[filled.index], pixels);
+  if (filled.index >= buffers_.size()) return {.status = TakeStatus::kGone};
+  if (holds_whole_image(filled) && read_out(buffers_[filled.index], pixels))
     taken.status = TakeStatus::kFrame;
-  }
-  if (!queue(filled.index)) taken.status = TakeStatus::kGone;
+  if (queue(filled.index) != 0) taken.status = TakeStatus::kGone;
   return taken;
 }
 

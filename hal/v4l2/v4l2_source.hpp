@@ -1,4 +1,5 @@
-// Frames of a V4L2 capture device: memory-mapped buffers, or buffers exported as DMA-buf file descriptors.
+// Frames of a V4L2 capture device: memory-mapped buffers, buffers exported as DMA-buf file descriptors, or
+// DMA-bufs of another owner's that the device fills.
 #pragma once
 
 #include <string>
@@ -6,6 +7,7 @@
 
 #include "hal/camera_setup.hpp"
 #include "hal/live/frame_source.hpp"
+#include "hal/v4l2/lent_memory.hpp"
 #include "hal/v4l2/v4l2_device.hpp"
 
 namespace omma {
@@ -33,7 +35,7 @@ class V4l2Source final : public FrameSource {
   struct Buffer {
     void* memory = nullptr;
     std::size_t size = 0;
-    int dma_file = -1;
+    int dma_file = -1;  // none of the device's own, mapped by its offset
   };
 
   [[noreturn]] void refuse(std::string_view field, const std::string& expected,
@@ -43,19 +45,26 @@ class V4l2Source final : public FrameSource {
   void set_format();
   void set_rate() const;
   void find_exposure();
+  void request_buffers();
+  void borrow_buffers();
   void map_buffers();
-  void map(Buffer& buffer, const v4l2_buffer& about);
-  bool queue(std::uint32_t index) const noexcept;
+  void map(Buffer& buffer, int file, off_t offset);
+  bool borrows() const noexcept { return !setup_.memory_from.empty(); }
+  v4l2_buffer buffer_query(std::uint32_t index) const noexcept;
+  /// @return 0, or the errno
+  int queue(std::uint32_t index) const noexcept;
   bool holds_whole_image(const v4l2_buffer& filled) const noexcept;
-  void read_out(const Buffer& buffer, std::byte* pixels) const noexcept;
+  bool read_out(const Buffer& buffer, std::byte* pixels) const noexcept;
 
   CameraSetup setup_;
   const PixelLayout* layout_;
   GreyShape shape_;
   v4l2::Device device_;
+  LentMemory lender_;
   std::vector<Buffer> buffers_;
   std::ptrdiff_t stride_ = 0;
-  v4l2::Control exposure_;  // id 0: it has none
+  std::size_t frame_bytes_ = 0;  // that the device asks of a buffer
+  v4l2::Control exposure_;       // id 0: it has none
   TimeNs exposure_ns_ = 0;
   bool streaming_ = false;
 };

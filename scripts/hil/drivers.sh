@@ -66,4 +66,5 @@ wait $CAPTURE
 check $(($? == 1 ? 0 : 1)) "unplugged and plugged in again: $(grep frames /tmp/said | head -1)"
 says 'cam0: gone or silent' && says 'cam0: delivers again' && says ' 1 times gone'
 check $? "named and counted"
+source scripts/hil/lent_memory.sh
 exit $failed

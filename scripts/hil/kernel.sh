@@ -6,7 +6,8 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 FOLDER=$(realpath -m "${1:-build/hil}")
 HERE=$PWD/scripts/hil
-[ -f "$FOLDER/made" ] && exit 0
+# Anew where the drivers are others.
+[ "$FOLDER/made" -nt "$HERE/modules.sh" ] && exit 0
 
 PACKAGE=$(apt-cache depends linux-image-amd64 | sed -n 's/^ *Depends: \(linux-image-6[^ :]*\).*/\1/p' | head -1)
 [ -n "$PACKAGE" ] || { echo "no linux-image-amd64 among this machine's packages" >&2; exit 1; }

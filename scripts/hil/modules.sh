@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # scripts/hil/modules.sh FOLDER RELEASE: builds the drivers that Debian's kernel does not ship: gpio-sim and irq_sim
-# (simulated lines), vimc (cameras for libcamera), v4l2loopback (a video device fed by a program).
+# (simulated lines), vimc (cameras for libcamera), v4l2loopback (a video device fed by a program), the DMA heaps with the
+# system's heap (memory that cameras fill).
 set -euo pipefail
 FOLDER=$1 RELEASE=$2
 DOWNLOADS=$FOLDER/downloads
@@ -25,15 +26,21 @@ trap 'rm -rf "$T"' EXIT
 dpkg-deb --fsys-tarfile "$DOWNLOADS"/linux-source-6.1_*.deb | tar -xO ./usr/src/linux-source-6.1.tar.xz | xz -dc |
   tar -x -C "$T" --strip-components=1 linux-source-6.1/drivers/media/test-drivers/vimc \
     linux-source-6.1/drivers/gpio/gpio-sim.c linux-source-6.1/drivers/gpio/gpiolib{,-cdev}.h \
-    linux-source-6.1/kernel/irq/irq_sim.c
+    linux-source-6.1/kernel/irq/irq_sim.c linux-source-6.1/drivers/dma-buf/{dma-heap.c,heaps/system_heap.c}
 dpkg -x "$DOWNLOADS"/v4l2loopback-dkms_*.deb "$T/loopback"
-cp "$T"/drivers/gpio/* "$T/kernel/irq/irq_sim.c" "$T"/loopback/usr/src/v4l2loopback-*/v4l2loopback*.[ch] "$M"
+cp "$T"/drivers/gpio/* "$T/kernel/irq/irq_sim.c" "$T"/drivers/dma-buf/{dma-heap.c,heaps/system_heap.c} "$T"/loopback/usr/src/v4l2loopback-*/v4l2loopback*.[ch] "$M"
 cp -r "$T/drivers/media/test-drivers/vimc" "$M"
 
 # irq_sim as a module: irq_to_desc() is not exported to modules.
 sed -i 's/irq_to_desc(irqnum)/irq_data_to_desc(irq_get_irq_data(irqnum))/' "$M/irq_sim.c"
 printf '#include <linux/module.h>\nMODULE_LICENSE("GPL");\n' >> "$M/irq_sim.c"
 sed -i 's/\$(CONFIG_VIDEO_VIMC)/m/' "$M/vimc/Makefile"
+
+# The DMA heaps are no module of their own in the kernel: one module of both files, whose heap comes after its class.
+sed -i 's/^static int dma_heap_init(void)/int dma_heap_init(void);\nint dma_heap_init(void)/; /^subsys_initcall/d' "$M/dma-heap.c"
+sed -i 's/^static int system_heap_create(void)/int dma_heap_init(void);\n&/
+  s/^module_init(system_heap_create)/static int __init heaps_init(void)\n{\n\tint ret = dma_heap_init();\n\n\treturn ret ? ret : system_heap_create();\n}\nmodule_init(heaps_init)/' "$M/system_heap.c"
+printf 'MODULE_IMPORT_NS(DMA_BUF);\n' >> "$M/system_heap.c"
 
 # v4l2loopback holds exposure and gain: its reader sets them, its feeder reads them back.
 controls=""
@@ -87,10 +94,10 @@ module_init(vimc_init);
 module_exit(vimc_exit);
 X
 
-echo 'obj-m += irq_sim.o gpio-sim.o v4l2loopback.o vimc/' > "$M/Kbuild"
+printf 'obj-m += irq_sim.o gpio-sim.o v4l2loopback.o vimc/ dma_heaps.o\ndma_heaps-y := dma-heap.o system_heap.o\n' > "$M/Kbuild"
 make -s -C "$TREE" M="$M" modules 2>&1 | grep -v BTF || true
 UPDATES=$FOLDER/root/lib/modules/$RELEASE/updates
 mkdir -p "$UPDATES"
-cp "$M"/{irq_sim,gpio-sim,v4l2loopback}.ko "$M/vimc/vimc.ko" "$UPDATES"
+cp "$M"/{irq_sim,gpio-sim,v4l2loopback,dma_heaps}.ko "$M/vimc/vimc.ko" "$UPDATES"
 strip --strip-debug "$UPDATES"/*.ko
 depmod -b "$FOLDER/root" "$RELEASE"

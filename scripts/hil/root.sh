@@ -10,9 +10,9 @@ cd "$(dirname "$0")/../.."
 FOLDER=$(realpath -m "${1:-build/hil}")
 RELEASE=$(cat "$FOLDER/release")
 PROJECT=$PWD
-TOOLS="bash env cat dmesg chmod chrt cp cut date grep head ip kmod ln ls mkdir modprobe mount mv awk ps readlink rm rmmod sed seq sh sleep sort sync tail
+TOOLS="bash env cat dmesg chmod chrt cp cut date grep head ip kmod ln ls mkdir modprobe mount mv awk cmp ps readlink rm rmmod sed seq sh sleep sort sync tail
   timeout touch tr umount v4l2-ctl wc"
-DRIVERS="virtio_pci virtio_console 9pnet_virtio 9p virtio_rng vivid v4l2loopback vimc gpio-sim dummy_hcd cdc_acm g_serial usb_f_acm veth softdog"
+DRIVERS="virtio_pci virtio_console 9pnet_virtio 9p virtio_rng vivid v4l2loopback vimc gpio-sim dummy_hcd cdc_acm g_serial usb_f_acm veth softdog dma_heaps"
 
 I=$(mktemp -d)
 trap 'rm -rf "$I"' EXIT

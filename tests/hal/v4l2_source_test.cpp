@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <string>
 
 #include "fsw/kernel/input_error.hpp"
 #include "hal/sources/live_drivers.hpp"
+#include "hal/v4l2/lent_memory.hpp"
 #include "hal/v4l2/v4l2_controls.hpp"
 #include "tests/refusal.hpp"
 
@@ -43,6 +45,30 @@ TEST(V4l2Source, WithTooFewBuffersIsRefused) {
   CameraSetup setup = setup_of("/dev/video0");
   setup.buffers = 1;
   EXPECT_EQ(refusal_of([&] { V4l2Source{setup}; }), "lab.toml: buffers: expected 2 to 32, found 1");
+}
+
+TEST(V4l2Source, MemoryOfAnotherOwnerWithoutDmaBufIsRefused) {
+  CameraSetup setup = setup_of("/dev/video0");
+  setup.memory_from = "/dev/dma_heap/system";
+  EXPECT_EQ(refusal_of([&] { V4l2Source{setup}; }),
+            "lab.toml: memory_from: expected memory = \"dma-buf\", found \"mmap\"");
+}
+
+TEST(LentMemory, OfWhatIsNotThereIsToldByItsErrno) {
+  LentMemory memory;
+  EXPECT_EQ(memory.open("/dev/dma_heap/no such heap"), ENOENT);
+  EXPECT_EQ(memory.open("/dev/video250"), ENOENT);
+}
+
+TEST(LentMemory, OfWhatHasNoneIsRefused) {
+  LentMemory memory;
+  EXPECT_EQ(memory.open("/etc/passwd"), ENOTTY);
+  EXPECT_EQ(memory.open("/dev/null"), ENOTTY);
+  EXPECT_EQ(memory.open("/dev/ptmx"), ENOTTY);
+  int file = -1;
+  std::size_t size = 0;
+  EXPECT_EQ(memory.lend(0, file, size), EBADF);  // nothing is open after a refusal
+  EXPECT_EQ(file, -1);
 }
 
 TEST(V4l2Names, OfFormatsGoBothWays) {

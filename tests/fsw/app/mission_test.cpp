@@ -308,7 +308,7 @@ TEST_F(MissionFile, MayMixRecordedAndLiveCameras) {
   replace(
       "demo.toml", "driver = \"recorded\"\nbits = 12",
       "driver = \"v4l2\"\ndevice = \"navcam0\"\nformat = \"Y16\"\nbits = 12\nbayer = \"green\"\nmemory = "
-      "\"dma-buf\"\n"
+      "\"dma-buf\"\nmemory_from = \"/dev/dma_heap/linux,cma\"\n"
       "controls = { exposure = 100, trigger = \"External\" }\ncontrol_names = { exposure = \"shutter\" }");
   const Mission mission = read_mission(file());
   EXPECT_TRUE(has_live_cameras(mission));
@@ -318,6 +318,7 @@ TEST_F(MissionFile, MayMixRecordedAndLiveCameras) {
   EXPECT_EQ(setup.bits, 12);
   EXPECT_EQ(setup.bayer, BayerUse::kGreen);
   EXPECT_TRUE(setup.dma_buf);
+  EXPECT_EQ(setup.memory_from, "/dev/dma_heap/linux,cma");
   ASSERT_EQ(setup.controls.size(), 2U);
   EXPECT_EQ(setup.controls[0].value, "100");
   EXPECT_EQ(setup.controls[1].value, "External");
@@ -332,7 +333,10 @@ TEST_F(MissionFile, OfLiveCamerasThatMakeNoSenseIsRefused) {
   EXPECT_THAT(message(), HasSubstr("camera[0].device: expected a text, found nothing"));
   replace("demo.toml", "driver = \"v4l2\"", "driver = \"v4l2\"\ndevice = \"x\"\nmemory = \"paper\"");
   EXPECT_THAT(message(), HasSubstr("camera[0].memory: expected \"mmap\" or \"dma-buf\", found paper"));
-  replace("demo.toml", "memory = \"paper\"", "bayer = \"blue\"");
+  replace("demo.toml", "memory = \"paper\"", "memory_from = \"/dev/dma_heap/system\"");
+  EXPECT_THAT(message(),
+              HasSubstr("camera[0].memory_from: expected memory = \"dma-buf\" beside it, found mmap"));
+  replace("demo.toml", "memory_from = \"/dev/dma_heap/system\"", "bayer = \"blue\"");
   EXPECT_THAT(message(), HasSubstr("camera[0].bayer: expected \"grey\", \"green\" or \"raw\", found blue"));
   replace("demo.toml", "bayer = \"blue\"", "controls = { gain = 1.5 }");
   EXPECT_THAT(

@@ -48,6 +48,22 @@ void note(std::atomic<std::uint64_t>& counter) noexcept {
   }
 }
 
+// 32-bit machines have mmap2 instead, which counts the offset in units of 4096 bytes.
+void* map_pages(void* address, std::size_t length, int protection, int flags, int file,
+                off64_t offset) noexcept {
+#ifdef SYS_mmap2
+  constexpr off64_t kUnit = 4096;
+  if (offset % kUnit != 0 || offset < 0 || offset / kUnit > off64_t{0xFFFFFFFF}) {
+    errno = offset % kUnit != 0 ? EINVAL : EOVERFLOW;
+    return MAP_FAILED;
+  }
+  return reinterpret_cast<void*>(syscall(SYS_mmap2, address, length, protection, flags, file,
+                                         static_cast<unsigned long>(offset / kUnit)));
+#else
+  return reinterpret_cast<void*>(syscall(SYS_mmap, address, length, protection, flags, file, offset));
+#endif
+}
+
 [[maybe_unused]] const bool present = [] {
   omma::memory_guard::detail::installed.store(true, std::memory_order_relaxed);
   return true;
@@ -100,12 +116,29 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
   return 0;
 }
 
-#ifdef SYS_mmap
 void* mmap(void* address, std::size_t length, int protection, int flags, int file, off_t offset) noexcept {
   note(mappings);
-  return reinterpret_cast<void*>(syscall(SYS_mmap, address, length, protection, flags, file, offset));
+  return map_pages(address, length, protection, flags, file, offset);
 }
-#endif
+
+// What large-file programs call mmap by, on 32-bit machines with an offset of 64 bits.
+void* mmap64(void* address, std::size_t length, int protection, int flags, int file,
+             off64_t offset) noexcept {
+  note(mappings);
+  return map_pages(address, length, protection, flags, file, offset);
+}
+
+void* mremap(void* address, std::size_t length, std::size_t new_length, int flags, ...) noexcept {
+  note(mappings);
+  void* place = nullptr;
+  if ((flags & MREMAP_FIXED) != 0) {
+    va_list more;
+    va_start(more, flags);
+    place = va_arg(more, void*);  // NOLINT(clang-analyzer-valist.Uninitialized): it is begun above
+    va_end(more);
+  }
+  return reinterpret_cast<void*>(syscall(SYS_mremap, address, length, new_length, flags, place));
+}
 
 int munmap(void* address, std::size_t length) noexcept {
   note(mappings);

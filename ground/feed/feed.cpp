@@ -208,6 +208,7 @@ int feed(const FeedOptions& options) {
 
 void add_feed(CLI::App& app, CommandContext& context) {
   auto o = std::make_shared<FeedOptions>();
+  const CLI::Range every(1, 1'000'000);
   CLI::App* command = app.add_subcommand(
       "feed", "Play a recording into video devices (v4l2loopback) or shared memory, as cameras");
   command->add_option("recording", o->recording, "Folder of frames, <camera>/<camera>_<number>.png")
@@ -224,11 +225,16 @@ void add_feed(CLI::App& app, CommandContext& context) {
       "--fired-by", o->fired_by,
       "File that reads 1 while the frame-sync line is active (gpio-sim's value): each edge is a frame "
       "set, instead of the rate");
-  command->add_option("--lose-every", o->lose_every,
-                      "Leave out the last of so many, as a camera that misses a pulse");
-  command->add_option("--late-every", o->late_every, "Give the last of so many two fifths of a period late");
-  command->add_option("--hold-every", o->hold_every,
-                      "Give the last of so many two frame sets later, with the stamp it had");
+  command
+      ->add_option("--lose-every", o->lose_every,
+                   "Leave out the last of so many, as a camera that misses a pulse")
+      ->check(every);
+  command->add_option("--late-every", o->late_every, "Give the last of so many two fifths of a period late")
+      ->check(every);
+  command
+      ->add_option("--hold-every", o->hold_every,
+                   "Give the last of so many two frame sets later, with the stamp it had")
+      ->check(every);
   command->add_option("--log", o->log, "File (CSV) for the instant each frame set was given");
   command->callback([o, &context] { context.exit_code = feed(*o); });
 }

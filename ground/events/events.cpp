@@ -39,8 +39,7 @@ int tell(const Arguments& arguments) {
 }  // namespace
 
 void add_events(CLI::App& app, CommandContext& context) {
-  CLI::App* command =
-      app.add_subcommand("events", "Events that a flight program's event store kept");
+  CLI::App* command = app.add_subcommand("events", "Events that a flight program's event store kept");
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("file", arguments->file, "event store: what `omma-fsw --events FILE` keeps")
       ->required();

@@ -33,7 +33,8 @@ void FusedLight::add(const ExposedLevel& seen, const FusionSensor& sensor, doubl
   const double signal = seen.level - seen.black;
   // Variance of the rate: photon noise by the signal, read noise, the rounding of the converter.
   const double electrons = std::max(signal, 0.0) * sensor.gain + sensor.read_noise * sensor.read_noise;
-  const double variance = electrons / (sensor.gain * sensor.gain) + 1.0 / 12;
+  const double relative = sensor.relative_noise * signal;
+  const double variance = electrons / (sensor.gain * sensor.gain) + 1.0 / 12 + relative * relative;
   const double weight = share * seen.exposure * seen.exposure / (variance * unit * unit);
   weighted_ += static_cast<float>(weight * unit * signal / seen.exposure);
   weights_ += static_cast<float>(weight);

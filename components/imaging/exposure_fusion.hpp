@@ -20,9 +20,10 @@ struct ExposedImage {
 };
 
 struct FusionSensor {
-  double gain = 2;        ///< electrons a grey level
-  double read_noise = 5;  ///< [electrons]
-  double full = 0.98;     ///< share of the white level from which a pixel says nothing
+  double gain = 2;            ///< electrons a grey level
+  double read_noise = 5;      ///< [electrons]
+  double full = 0.98;         ///< share of the white level from which a pixel says nothing
+  double relative_noise = 0;  ///< of a sensor made even: noise that grows with light, as a share of it
 };
 
 /// What one exposure says of one direction.

@@ -16,8 +16,16 @@ constexpr std::array<double, kLargestBox + 1> kPeakOfNoise{0,      0,      1.029
                                                            2.1181, 2.2408, 2.3437, 2.4316, 2.5076, 2.5746,
                                                            2.6345, 2.6882, 2.7371, 2.7819};
 
+/// Grey levels as they are, or made even.
+using EvenLevels = std::span<const std::uint16_t>;
+
 template <class Pixel>
-double interpolated(const ImageView& image, double u, double v) {
+int level_of(Pixel grey, EvenLevels even) {
+  return even.empty() ? grey : even[grey];
+}
+
+template <class Pixel>
+double interpolated(const ImageView& image, double u, double v, EvenLevels even) {
   const double x = std::clamp(u, 0.0, image.width - 1.0);
   const double y = std::clamp(v, 0.0, image.height - 1.0);
   const int column = std::min(static_cast<int>(x), std::max(image.width - 2, 0));
@@ -27,12 +35,12 @@ double interpolated(const ImageView& image, double u, double v) {
   const Pixel* bottom = image.row<Pixel>(std::min(row + 1, image.height - 1));
   const double a = x - column;
   const double b = y - row;
-  return (1 - b) * ((1 - a) * top[column] + a * top[right]) +
-         b * ((1 - a) * bottom[column] + a * bottom[right]);
+  return (1 - b) * ((1 - a) * level_of(top[column], even) + a * level_of(top[right], even)) +
+         b * ((1 - a) * level_of(bottom[column], even) + a * level_of(bottom[right], even));
 }
 
 template <class Pixel>
-double over_box(const ImageView& image, double u, double v, int box, Footprint footprint) {
+double over_box(const ImageView& image, double u, double v, int box, Footprint footprint, EvenLevels even) {
   const int left = static_cast<int>(std::lround(u - 0.5 * (box - 1)));
   const int top = static_cast<int>(std::lround(v - 0.5 * (box - 1)));
   const int right = std::min(left + box, image.width);
@@ -43,12 +51,13 @@ double over_box(const ImageView& image, double u, double v, int box, Footprint f
   for (int row = std::max(top, 0); row < bottom; ++row) {
     const Pixel* pixels = image.row<Pixel>(row);
     for (int column = std::max(left, 0); column < right; ++column) {
-      sum += pixels[column];
-      peak = std::max<int>(peak, pixels[column]);
+      const int level = level_of(pixels[column], even);
+      sum += level;
+      peak = std::max(peak, level);
       ++count;
     }
   }
-  if (count == 0) return interpolated<Pixel>(image, u, v);
+  if (count == 0) return interpolated<Pixel>(image, u, v, even);
   return footprint == Footprint::kMean ? sum / count : peak;
 }
 
@@ -57,14 +66,15 @@ bool usable(const ImageView& image, const RayTable& table, int camera) {
 }
 
 template <class Pixel>
-double grey(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint) {
-  return box <= 1 ? interpolated<Pixel>(image, seen.u, seen.v)
-                  : over_box<Pixel>(image, seen.u, seen.v, box, footprint);
+double grey(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint, EvenLevels even) {
+  return box <= 1 ? interpolated<Pixel>(image, seen.u, seen.v, even)
+                  : over_box<Pixel>(image, seen.u, seen.v, box, footprint, even);
 }
 
-double grey_of(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint) {
-  return image.format == PixelFormat::kGrey8 ? grey<std::uint8_t>(image, seen, box, footprint)
-                                             : grey<std::uint16_t>(image, seen, box, footprint);
+double grey_of(const ImageView& image, const SeenPixel& seen, int box, Footprint footprint,
+               EvenLevels even = {}) {
+  return image.format == PixelFormat::kGrey8 ? grey<std::uint8_t>(image, seen, box, footprint, even)
+                                             : grey<std::uint16_t>(image, seen, box, footprint, even);
 }
 
 }  // namespace
@@ -119,9 +129,9 @@ void Mosaic::gather(const Eigen::Vector3d& direction, RigImages images, const Ri
     // One full pixel among those that are averaged hides how bright it was: two at least, where it is
     // interpolated.
     const int box = boxes[camera];
-    to.add({.level = grey_of(image, seen[camera], box, Footprint::kMean),
-            .brightest = grey_of(image, seen[camera], std::max(box, 2), Footprint::kPeak),
-            .white = 1.0 * image.white_level,
+    to.add({.level = grey_of(image, seen[camera], box, Footprint::kMean, how.even),
+            .brightest = grey_of(image, seen[camera], std::max(box, 2), Footprint::kPeak, how.even),
+            .white = how.white,
             .black = how.black,
             .exposure = how.exposure},
            how.sensor, how.unit * levels_[camera].gain, seen[camera].weight);

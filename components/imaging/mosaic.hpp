@@ -24,9 +24,11 @@ using RigImages = std::span<const ImageView>;
 
 /// How a camera's frame was exposed, for fusion.
 struct CameraExposed {
-  double exposure = 0;  ///< [s], times the gain; 0: not known, the frame is left out
-  double black = 0;     ///< grey level of no light
-  double unit = 1;      ///< light of a grey level a second
+  double exposure = 0;                  ///< [s], times the gain; 0: not known, the frame is left out
+  double black = 0;                     ///< grey level of no light
+  double white = 255;                   ///< that of a full pixel; of even levels where they are made even
+  double unit = 1;                      ///< light of a grey level a second
+  std::span<const std::uint16_t> even;  ///< even level by grey level, where the sensor is not linear
   FusionSensor sensor;
 };
 

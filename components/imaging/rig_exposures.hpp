@@ -3,10 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 #include "components/camera/frames.hpp"
 #include "components/imaging/grey_scale.hpp"
 #include "components/imaging/mosaic.hpp"
+#include "components/sensor/response_curve.hpp"
 
 namespace omma {
 
@@ -15,7 +18,8 @@ struct CameraSensor {
   double electrons = 0;    ///< a grey level; 0: not known, then a camera's light is shares of its white level
   double black_level = 0;  ///< grey level of no light, where the camera does not tell
   double read_noise = 5;   ///< [electrons]
-  bool linear = true;      ///< false: left out where exposures are fused
+  ResponseCurve response{};   ///< empty: linear. Levels are made even for fusion, not in other pictures
+  double relative_noise = 0;  ///< of even levels, as a share of their light
 };
 
 /// The image of a frame of this trigger; empty where there is none.
@@ -26,7 +30,8 @@ inline ImageView usable_image(const Frame& frame) noexcept {
 
 class RigExposures {
  public:
-  explicit RigExposures(const std::array<CameraSensor, limits::kCameras>& sensors) : sensors_(sensors) {}
+  /// Allocates a table for each camera that is not linear.
+  explicit RigExposures(const std::array<CameraSensor, limits::kCameras>& sensors);
 
   /// Of every frame set; bounded by the cameras.
   void take(const Frames& frames) noexcept;
@@ -39,7 +44,8 @@ class RigExposures {
   /// electrons.
   const RigExposed& exposed() const noexcept { return exposed_; }
   /// What a camera's share of its white level is to be multiplied by to be light in that unit times the
-  /// reference exposure; 1 where it is not known. @param reference  from reference_exposure
+  /// reference exposure, which is let be where it is not linear; 1 where it is not known. @param reference
+  /// from reference_exposure
   double scale(std::size_t camera, double reference) const noexcept;
   /// The longest of the frame set taken last [s]; 0: none is known.
   double reference_exposure() const noexcept;
@@ -49,9 +55,16 @@ class RigExposures {
 
  private:
   bool electrons_known() const noexcept;
+  void take(std::size_t camera, const Frame& frame) noexcept;
 
   std::array<CameraSensor, limits::kCameras> sensors_;
   RigExposed exposed_{};
+  struct EvenTable {
+    std::vector<std::uint16_t> levels;  // by grey level; empty of linear cameras
+    std::uint16_t white = 0;            // it was made for these
+    double black = 0;
+  };
+  std::array<EvenTable, limits::kCameras> even_;
   std::array<double, limits::kCameras> white_{};  // [electrons], or 1 where electrons are not known
   std::size_t cameras_ = 0;
   double fewest_ = 1;  // electrons of a white level

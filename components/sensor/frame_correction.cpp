@@ -50,13 +50,6 @@ void FrameCorrection::list_hot_pixels() {
   }
 }
 
-void FrameCorrection::make_table(std::uint16_t white) {
-  const std::vector<std::uint16_t> table = response_.table(white, pedestal_);
-  std::copy(table.begin(), table.end(), even_.begin());
-  std::fill(even_.begin() + static_cast<std::ptrdiff_t>(table.size()), even_.end(), std::uint16_t{65535});
-  white_ = white;
-}
-
 template <class Raw, class Out>
 void FrameCorrection::correct_rows(const ImageView& raw) noexcept {
   const int white = raw.white_level;
@@ -95,7 +88,10 @@ ImageView FrameCorrection::correct(const ImageView& raw) noexcept {
   corrected_ = raw;
   const bool even = response_.empty();
   if (raw.empty() || raw.width != width_ || raw.height != height_ || (black_.empty() && even)) return raw;
-  if (!even && raw.white_level != white_) make_table(raw.white_level);
+  if (!even && raw.white_level != white_) {
+    response_.even_levels(raw.white_level, pedestal_, even_);
+    white_ = raw.white_level;
+  }
   const bool wide_in = raw.format == PixelFormat::kGrey16;
   const bool wide_out = wide_in || !even;
   if (wide_in) {

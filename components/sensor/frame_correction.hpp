@@ -60,7 +60,6 @@ class FrameCorrection {
   void correct_rows(const ImageView& raw) noexcept;
   template <class Out>
   void fill_in_hot() noexcept;
-  void make_table(std::uint16_t white);
 
   int width_, height_;
   BlackFrame black_;

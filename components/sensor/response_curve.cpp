@@ -18,7 +18,7 @@ ResponseCurve::ResponseCurve(std::vector<ResponsePoint> points) : points_(std::m
   }
 }
 
-double ResponseCurve::slope(double grey) const {
+double ResponseCurve::slope(double grey) const noexcept {
   auto right = std::upper_bound(points_.begin() + 1, points_.end() - 1, grey,
                                 [](double x, const ResponsePoint& p) { return x < p.grey; });
   const ResponsePoint& b = *right;
@@ -26,24 +26,22 @@ double ResponseCurve::slope(double grey) const {
   return (b.light - a.light) / (b.grey - a.grey);
 }
 
-double ResponseCurve::light(double grey) const {
+double ResponseCurve::light(double grey) const noexcept {
   auto right = std::upper_bound(points_.begin() + 1, points_.end() - 1, grey,
                                 [](double x, const ResponsePoint& p) { return x < p.grey; });
   return right->light + slope(grey) * (grey - right->grey);
 }
 
-std::vector<std::uint16_t> ResponseCurve::table(std::uint16_t white, double black) const {
-  std::vector<std::uint16_t> even;
-  even.reserve(std::size_t{white} + 1);
+void ResponseCurve::even_levels(std::uint16_t white, double black,
+                                std::span<std::uint16_t> even) const noexcept {
   const double scale = 1 / slope(black);
   const double offset = light(black);
-  for (int grey = 0; grey < white; ++grey) {
-    const double level = black + scale * (light(grey) - offset);
-    // Full is what the sensor calls full, or what has no room.
-    even.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 65535.0))));
+  const std::size_t below = std::min<std::size_t>(white, even.size());
+  for (std::size_t grey = 0; grey < below; ++grey) {
+    const double level = black + scale * (light(static_cast<double>(grey)) - offset);
+    even[grey] = static_cast<std::uint16_t>(std::lround(std::clamp(level, 0.0, 65535.0)));
   }
-  even.push_back(65535);
-  return even;
+  std::fill(even.begin() + static_cast<std::ptrdiff_t>(below), even.end(), std::uint16_t{65535});
 }
 
 double ResponseCurve::relative_noise(double noise, double black) const {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <vector>
 
 namespace omma {
@@ -22,17 +23,17 @@ class ResponseCurve {
 
   bool empty() const { return points_.empty(); }
   const std::vector<ResponsePoint>& points() const { return points_; }
-  double light(double grey) const;  ///< extended beyond the ends [the curve's unit]
-  /// Table from grey levels 0 … white to even ones of 16 bits: the darkest points keep their slope of one
-  /// level a level, so that noise in the dark is as it was; what is over 65535 is full.
+  double light(double grey) const noexcept;  ///< extended beyond the ends [the curve's unit]
+  /// Table from grey levels to even ones of 16 bits: the darkest points keep their slope of one level a
+  /// level, so that noise in the dark is as it was; `white` and above, and what is over 65535, is full.
   /// @param black  level of no light: where the slope is kept
-  std::vector<std::uint16_t> table(std::uint16_t white, double black) const;
+  void even_levels(std::uint16_t white, double black, std::span<std::uint16_t> even) const noexcept;
   /// How a pixel's noise of `noise` raw grey levels shows on the even scale: √(σ² + (ρ L)²) with L the light
   /// over black in even levels; ρ in the mean over the octaves of light in which it counts.
   double relative_noise(double noise, double black) const;
 
  private:
-  double slope(double grey) const;
+  double slope(double grey) const noexcept;
   std::vector<ResponsePoint> points_;
 };
 

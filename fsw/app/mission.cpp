@@ -262,10 +262,12 @@ Mission read_mission(const std::filesystem::path& file) {
   if (const auto imaging = root.table_if("imaging")) mission.imaging = read_imaging(*imaging, mission.rig);
   for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
     const CameraMission& camera = mission.cameras[c];
-    mission.imaging.sensors[c] = {.electrons = static_cast<double>(camera.dots.parameters.gain),
-                                  .black_level = static_cast<double>(camera.dots.parameters.black_level),
-                                  .read_noise = camera.read_noise_e,
-                                  .linear = camera.dots.sensor.response.empty()};
+    mission.imaging.sensors[c] = {
+        .electrons = static_cast<double>(camera.dots.parameters.gain),
+        .black_level = static_cast<double>(camera.dots.parameters.black_level),
+        .read_noise = camera.read_noise_e,
+        .response = camera.dots.sensor.response,
+        .relative_noise = static_cast<double>(camera.dots.parameters.relative_noise)};
   }
   if (const auto latency = root.table_if("latency")) mission.latency_ms = read_latency(*latency);
   mission.dds_domain = static_cast<int>(root.integer("dds_domain", {0, 230}, mission.dds_domain));

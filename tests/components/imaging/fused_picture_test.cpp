@@ -1,6 +1,7 @@
 // Pictures of more than 8 bits: exposures fused in flight, and a camera's own pixels at full depth.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "fsw/kernel/memory_guard.hpp"
@@ -71,14 +72,14 @@ struct Whole {
 };
 
 /// Flies until a picture is whole; the rig turns by 1.1 degrees a frame set.
-Whole fly(ImagingBench& bench, std::uint64_t seed, bool compressible = true) {
-  std::mt19937_64 random(seed);
+/// @param seen  what the sensors give in an exposure of so many seconds
+Whole fly(ImagingBench& bench, const std::function<testing::PaintedSky(double)>& seen) {
   Whole whole;
   for (std::uint64_t number = 1; number < 60; ++number) {
     const double exposure = number % 2 == 0 ? kShort : kLong;
     const Eigen::Quaterniond attitude =
         rotation_exp(Eigen::Vector3d(0.02 * static_cast<double>(number), 0.3, 0.1));
-    if (number < 14) bench.take(number, attitude, sensor(exposure, random), exposed(exposure));
+    if (number < 14) bench.take(number, attitude, seen(exposure), exposed(exposure));
     bench.imaging.step({});
     const ImageChunk& chunk = *bench.imaging.chunk;
     if (!chunk.valid) continue;
@@ -90,8 +91,13 @@ Whole fly(ImagingBench& bench, std::uint64_t seed, bool compressible = true) {
     whole.scale = {chunk.scale, chunk.bits, chunk.light_most, chunk.light_soft};
     if (chunk.first_row + chunk.rows == chunk.height) return whole;
   }
-  ADD_FAILURE() << "no picture" << compressible;
+  ADD_FAILURE() << "no picture";
   return whole;
+}
+
+Whole fly(ImagingBench& bench, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  return fly(bench, [&random](double exposure) { return sensor(exposure, random); });
 }
 
 TEST(FusedPicture, HoldsALampAndAVeilThatNoOneExposureDoes) {
@@ -114,6 +120,36 @@ TEST(FusedPicture, HoldsALampAndAVeilThatNoOneExposureDoes) {
   // Neither exposure alone: the long one is full, the short one a thirtieth of a grey level of the veil.
   EXPECT_GT(500 * kLong, 1);
   EXPECT_LT(light(kVeil) * kWhite * kShort, 0.5);
+}
+
+// The same sky by sensors whose levels rise with the logarithm of light: grey = black + c ln(1 + even / c).
+TEST(FusedPicture, TakesSensorsThatAreNotLinear) {
+  constexpr double kCurve = 600;
+  const auto grey = [](double even) { return kBlack + kCurve * std::log1p(even / kCurve); };
+  std::vector<ResponsePoint> points;
+  for (double level = 0; level <= kWhite; level += 16)
+    points.push_back({level, kCurve * std::expm1((level - kBlack) / kCurve)});
+  ImagingParameters parameters = fused_panorama();
+  for (CameraSensor& one : parameters.sensors) {
+    one.response = ResponseCurve(points);
+    one.relative_noise = one.response.relative_noise(kReadNoise / kElectrons, kBlack);
+  }
+  ImagingBench bench(parameters);
+  std::mt19937_64 random(6);
+  const Whole whole = fly(bench, [&](double exposure) -> testing::PaintedSky {
+    return [exposure, &random, &grey](const Eigen::Vector3d& d) {
+      const double electrons = kElectrons * kWhite * light(d) * exposure;
+      std::normal_distribution<double> photons(0, std::sqrt(electrons));
+      std::normal_distribution<double> reading(0, kReadNoise / kElectrons);
+      const double even = std::max(0.0, electrons + photons(random)) / kElectrons;
+      return std::clamp(std::round(grey(even) + reading(random)), 0.0, kWhite) / kWhite;
+    };
+  });
+  const double lamp = whole.mean_about(kLamp, 0.12) / 500;
+  const double veil = whole.mean_about(kVeil, 0.12) * kWhite * kLong / 3;
+  std::printf("lamp %.4f, veil %.4f of the truth\n", lamp, veil);
+  EXPECT_NEAR(lamp, 1, 0.02);
+  EXPECT_NEAR(veil, 1, 0.1);
 }
 
 TEST(FusedPicture, IsTheSameEveryTime) {

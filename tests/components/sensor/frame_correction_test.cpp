@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "fsw/kernel/memory_guard.hpp"
+#include "fsw/kernel/real_time_scope.hpp"
 #include "hal/recorded/image_file.hpp"
 
 namespace omma {
@@ -97,7 +99,13 @@ TEST(FrameCorrection, MakesLevelsEvenByTheResponse) {
   Image raw;
   raw.resize(kWidth, kHeight, PixelFormat::kGrey8);
   for (std::size_t i = 0; i < raw.pixels.size(); ++i) raw.pixels[i] = static_cast<std::byte>(i % 256);
-  const ImageView out = correction.correct(raw.view());
+  const memory_guard::Violations before = memory_guard::violations();
+  ImageView out;
+  {
+    const RealTimeScope scope;
+    out = correction.correct(raw.view());
+  }
+  EXPECT_EQ(memory_guard::violations().total() - before.total(), 0U);
   EXPECT_EQ(out.format, PixelFormat::kGrey16);
   EXPECT_EQ(out.row<std::uint16_t>(0)[40], 40);
   EXPECT_EQ(out.row<std::uint16_t>(0)[60], 50 + 10 * 20);

@@ -41,8 +41,7 @@ bool DotPatches::start(std::span<const RigDot> dots, double gate) noexcept {
   gate_ = gate;
   seeds_.clear();
   order_.clear();
-  visited_.fill(0);
-  diagonal_ = block_ = in_block_ = 0;
+  rewind();
   for (std::size_t first = 0; first < dots_.size();) {
     std::size_t last = first + 1;
     while (last < dots_.size() && dots_[last].camera == dots_[first].camera) ++last;
@@ -54,6 +53,11 @@ bool DotPatches::start(std::span<const RigDot> dots, double gate) noexcept {
     return seeds_[a].crowding < seeds_[b].crowding || (seeds_[a].crowding == seeds_[b].crowding && a < b);
   });
   return !seeds_.empty();
+}
+
+void DotPatches::rewind() noexcept {
+  visited_.fill(0);
+  diagonal_ = block_ = in_block_ = 0;
 }
 
 void DotPatches::add_camera(std::size_t first, std::size_t last) noexcept {

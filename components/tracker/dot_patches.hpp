@@ -33,6 +33,9 @@ class DotPatches {
   /// Looks at the dots of a new frame set. @return false where no camera has four dots
   bool start(std::span<const RigDot> dots, double gate) noexcept;
 
+  /// Begins with the first foursome again.
+  void rewind() noexcept;
+
   /// The next foursome; false when there is none left.
   bool next(DotFoursome& foursome) noexcept;
 

@@ -19,7 +19,14 @@ constexpr double kBeyondDoubt = -12.0;  // log-chance at which the search stops
 // Foursomes looked at after the first credible labelling short of that: those that share dots with it, and
 // others.
 constexpr std::uint32_t kSecondLooks = 60, kLooksElsewhere = 8;
+// Of the bound on chance matches: labellings that explain less than the usual part of the targets turned to
+// the cameras get a thousandth of it (ln), for chance makes many of them and the body few.
+constexpr double kUsualPart = 0.7, kShareOfFew = -6.9;
 constexpr double kImprobable = 6.0;  // χ² this many of its standard deviations too large is not noise
+
+/// Foursomes of targets that a foursome of dots is compared with.
+enum class Kind : std::uint8_t { kPlanar, kSolid };
+constexpr double kPartForFaces = 0.75;  // of all work, for foursomes of one face
 
 struct Survivor {
   Pose pose;
@@ -60,7 +67,10 @@ struct TargetIdentifier::Work {
   }
 
   void search(std::span<const RigDot> given, TargetIdentification& result) noexcept;
-  void collect_survivors(const DotFoursome& foursome, TargetIdentification& result) noexcept;
+  /// Stops where foursomes or hypotheses, of all searches together, have reached their number.
+  void search(Kind kind, std::uint32_t most_foursomes, std::uint32_t most_hypotheses,
+              TargetIdentification& result) noexcept;
+  void collect_survivors(Kind kind, const DotFoursome& foursome, TargetIdentification& result) noexcept;
   /// Completes the survivors and keeps the two likeliest labellings seen so far.
   void judge(TargetIdentification& result) noexcept;
   /// So good a match is no chance.
@@ -106,10 +116,26 @@ void TargetIdentifier::Work::search(std::span<const RigDot> given, TargetIdentif
   verification.start(given);
   has_best = has_second = false;
   result.status = TargetIdentificationStatus::kNoMatch;
+  // Four neighbours of one face are recognised at little cost; whatever mixes faces, only without them.
+  const bool faces_first = !patches.flat() && patches.has_planar();
+  if (faces_first || patches.flat()) {
+    const auto part = faces_first ? kPartForFaces : 1.0;
+    search(Kind::kPlanar, static_cast<std::uint32_t>(part * options.most_foursomes),
+           static_cast<std::uint32_t>(part * options.most_hypotheses), result);
+  }
+  if (!patches.flat() && !has_best) {
+    foursomes.rewind();
+    search(Kind::kSolid, options.most_foursomes, options.most_hypotheses, result);
+  }
+  if (has_best) answer(result);
+}
+
+void TargetIdentifier::Work::search(Kind kind, std::uint32_t most_foursomes, std::uint32_t most_hypotheses,
+                                    TargetIdentification& result) noexcept {
   DotFoursome foursome;
   std::uint32_t second_looks = 0, looks_elsewhere = 0;
   while (!beyond_doubt() && foursomes.next(foursome)) {
-    if (result.foursomes == options.most_foursomes || result.hypotheses >= options.most_hypotheses) {
+    if (result.foursomes == most_foursomes || result.hypotheses >= most_hypotheses) {
       result.status = TargetIdentificationStatus::kWorkLimit;
       break;
     }
@@ -117,16 +143,16 @@ void TargetIdentifier::Work::search(std::span<const RigDot> given, TargetIdentif
     if (has_best && !shares_dots(foursome, best) && ++looks_elsewhere > kLooksElsewhere) continue;
     ++result.foursomes;
     second_looks += has_best ? 1 : 0;
-    collect_survivors(foursome, result);
+    collect_survivors(kind, foursome, result);
     judge(result);
   }
-  if (has_best) answer(result);
 }
 
-void TargetIdentifier::Work::collect_survivors(const DotFoursome& foursome,
+void TargetIdentifier::Work::collect_survivors(Kind kind, const DotFoursome& foursome,
                                                TargetIdentification& result) noexcept {
   survivors.clear();
-  const std::size_t count = patches.matching(foursome.patch, candidates);
+  const std::size_t count = kind == Kind::kPlanar ? patches.matching_planar(foursome.patch, candidates)
+                                                  : patches.matching_solid(foursome.patch, candidates);
   if (count == 0) return;
   verification.look_at(foursome, foursomes.around(foursome.seed));
   ThreePoints three;
@@ -173,7 +199,8 @@ void TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
 bool TargetIdentifier::Work::credible(const TargetLabelling& labelling) const noexcept {
   const double freedom = 2.0 * static_cast<double>(labelling.pairs.size()) - 6;
   const bool fits = labelling.pose.chi2 <= freedom + kImprobable * std::sqrt(2 * freedom);
-  return labelling.log_chance <= (fits ? options.largest_log_chance : kBeyondDoubt);
+  const double share = labelling.part < kUsualPart ? kShareOfFew : 0.0;
+  return labelling.log_chance <= std::min(options.largest_log_chance + share, fits ? 0.0 : kBeyondDoubt);
 }
 
 void TargetIdentifier::Work::answer(TargetIdentification& result) noexcept {

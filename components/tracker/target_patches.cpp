@@ -40,6 +40,27 @@ bool is_flat(const TargetBody& body) {
   return spread[0] <= kThinnest * kThinnest * spread[1];
 }
 
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.dot(b) > 0.999;
+}
+
+/// Which way the face that the three targets share looks along the normal n of the triple; 0: they share
+/// none.
+std::int8_t front_of(const TargetBody& body, std::size_t i, std::size_t j, std::size_t k,
+                     const Eigen::Vector3d& n) {
+  const Eigen::Vector3d& face = body.targets[i].normal;
+  const double along = face.dot(n);
+  if (!parallel(face, body.targets[j].normal) || !parallel(face, body.targets[k].normal) ||
+      !(std::abs(along) > 0.99))
+    return 0;
+  return along > 0 ? 1 : -1;
+}
+
+/// Three targets of one face that are seen at all are seen from its front.
+bool seen_from_behind(const DotPatch& patch, std::int8_t front) noexcept {
+  return front * (patch.u.x() * patch.v.y() - patch.u.y() * patch.v.x()) > 0;
+}
+
 /// How far perspective may move the affine coordinates of a fourth point off their parallel-projection
 /// values, to first order, when the patch is tilted by up to atan(tilt).
 void perspective_reach(const DotPatch& patch, double tilt, double& alpha_reach, double& beta_reach) noexcept {
@@ -58,9 +79,8 @@ TargetPatches::TargetPatches(const TargetBody& body, double tilt_factor)
       for (const std::uint8_t k : neighbours)
         if (j != k) add_triple(body, neighbours, static_cast<std::uint8_t>(i), j, k);
   }
-  if (flat_)
-    std::stable_sort(fourths_.begin(), fourths_.end(),
-                     [](const Fourth& a, const Fourth& b) { return a.alpha < b.alpha; });
+  std::stable_sort(planar_.begin(), planar_.end(),
+                   [](const Fourth& a, const Fourth& b) { return a.alpha < b.alpha; });
 }
 
 void TargetPatches::add_triple(const TargetBody& body, std::span<const std::uint8_t> neighbours,
@@ -77,38 +97,39 @@ void TargetPatches::add_triple(const TargetBody& body, std::span<const std::uint
                 static_cast<float>(e2.squaredNorm()),
                 static_cast<float>(area),
                 static_cast<std::uint32_t>(fourths_.size()),
-                0};
+                0,
+                front_of(body, i, j, k, n)};
   for (const std::uint8_t l : neighbours) {
     if (l == j || l == k) continue;
     const Eigen::Vector3d d = body.targets[l].position - origin;
     const double alpha = d.cross(e2).dot(n) / area, beta = e1.cross(d).dot(n) / area;
     const bool in_reach = std::abs(alpha) < kFarthestFourth && std::abs(beta) < kFarthestFourth &&
                           std::abs(1 - alpha - beta) < kFarthestFourth;
-    if (flat_ && !in_reach) continue;
-    fourths_.push_back({static_cast<float>(alpha), static_cast<float>(beta), static_cast<float>(d.dot(n)),
-                        static_cast<std::uint32_t>(triples_.size()), l});
+    const Fourth fourth{static_cast<float>(alpha), static_cast<float>(beta), static_cast<float>(d.dot(n)),
+                        static_cast<std::uint32_t>(triples_.size()), l};
+    const bool on_face = triple.front != 0 && parallel(body.targets[l].normal, body.targets[i].normal) &&
+                         std::abs(d.dot(n)) < kThinnest * std::sqrt(area);
+    if ((flat_ || on_face) && in_reach) planar_.push_back(fourth);
+    fourths_.push_back(fourth);
     ++triple.count;
   }
-  if (triple.count > 0) triples_.push_back(triple);
+  triples_.push_back(triple);
 }
 
-std::size_t TargetPatches::matching(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
-  return flat_ ? matching_flat(patch, out) : matching_solid(patch, out);
-}
-
-std::size_t TargetPatches::matching_flat(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
+std::size_t TargetPatches::matching_planar(const DotPatch& patch, std::span<PatchLabels> out) const noexcept {
   double alpha_reach, beta_reach;
   perspective_reach(patch, tilt_factor_, alpha_reach, beta_reach);
   const auto alpha = static_cast<float>(patch.alpha), beta = static_cast<float>(patch.beta);
   const auto alpha_tolerance = static_cast<float>(alpha_reach + patch.alpha_noise + kSlack);
   const auto beta_tolerance = static_cast<float>(beta_reach + patch.beta_noise + kSlack);
-  auto fourth = std::lower_bound(fourths_.begin(), fourths_.end(), alpha - alpha_tolerance,
+  auto fourth = std::lower_bound(planar_.begin(), planar_.end(), alpha - alpha_tolerance,
                                  [](const Fourth& entry, float value) { return entry.alpha < value; });
   std::size_t count = 0;
-  for (; fourth != fourths_.end() && fourth->alpha <= alpha + alpha_tolerance; ++fourth) {
+  for (; fourth != planar_.end() && fourth->alpha <= alpha + alpha_tolerance; ++fourth) {
     if (!(std::abs(fourth->beta - beta) <= beta_tolerance)) continue;
     if (count == out.size()) break;
     const Triple& triple = triples_[fourth->triple];
+    if (seen_from_behind(patch, triple.front)) continue;
     out[count++] = {triple.targets[0], triple.targets[1], triple.targets[2], fourth->target};
   }
   return count;
@@ -146,6 +167,7 @@ std::size_t TargetPatches::matching_solid(const DotPatch& patch, std::span<Patch
   const double reach = patch.noise + kAlignmentSlack * size;
   std::size_t count = 0;
   for (const Triple& triple : triples_) {
+    if (seen_from_behind(patch, triple.front)) continue;
     for (const double sign : {1.0, -1.0}) {
       const Alignment found = aligned(patch, triple, sign);
       for (std::uint32_t f = triple.first; f < triple.first + triple.count; ++f) {

@@ -37,10 +37,14 @@ class TargetPatches {
   TargetPatches(const TargetBody& body, double tilt_factor);
 
   /// Writes the foursomes of targets that agree with the patch, best known first come first written.
+  /// `planar`: those that lie in a plane (one face of a body, or a card), which are found much faster;
+  /// `solid`: any, of a body that is no card.
   /// @return how many were written, at most out.size()
-  std::size_t matching(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
+  std::size_t matching_planar(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
+  std::size_t matching_solid(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
 
   bool flat() const { return flat_; }
+  bool has_planar() const { return !planar_.empty(); }
   /// Ordered triples of targets compared with every foursome of dots.
   std::size_t triples() const { return triples_.size(); }
 
@@ -51,6 +55,8 @@ class TargetPatches {
     float area;           ///< |e1 × e2| [m²]
     std::uint32_t first;  ///< its fourths
     std::uint32_t count;
+    /// Of the face that all three are on, against e1 × e2; 0: on no face, or not on one.
+    std::int8_t front;
   };
   struct Fourth {
     float alpha, beta, gamma;  ///< fourth = first + α e1 + β e2 + γ n, n their unit normal, γ in m
@@ -69,13 +75,12 @@ class TargetPatches {
   static Alignment aligned(const DotPatch& patch, const Triple& triple, double sign) noexcept;
   void add_triple(const TargetBody& body, std::span<const std::uint8_t> neighbours, std::uint8_t i,
                   std::uint8_t j, std::uint8_t k);
-  std::size_t matching_flat(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
-  std::size_t matching_solid(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
 
   double tilt_factor_;
   bool flat_ = false;
   std::vector<Triple> triples_;
-  std::vector<Fourth> fourths_;  ///< flat body: by α; solid body: by triple
+  std::vector<Fourth> fourths_;  ///< by triple
+  std::vector<Fourth> planar_;   ///< those in the plane of their triple, by α
 };
 
 }  // namespace omma

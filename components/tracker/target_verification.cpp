@@ -20,6 +20,22 @@ constexpr double kPoseMargin = 25.0;
 constexpr double kSuspect = 5.0;
 constexpr int kMostMisfits = 3;  ///< pairs left out for that
 
+/// The planes of F faces cut space into so many cells at most; from one cell the same faces are seen.
+double most_aspects(std::span<const Target> targets) {
+  double f = 0;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const auto same_face = [&](const Target& earlier) {
+      return earlier.normal.dot(targets[i].normal) > 0.999 &&
+             std::abs(targets[i].normal.dot(earlier.position - targets[i].position)) < 1e-3;
+    };
+    const bool is_new =
+        !targets[i].normal.isZero(0) &&
+        std::none_of(targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(i), same_face);
+    f += is_new ? 1 : 0;
+  }
+  return 1 + f + f * (f - 1) / 2 + f * (f - 1) * (f - 2) / 6;
+}
+
 }  // namespace
 
 bool same_labelling(const TargetLabelling& a, const TargetLabelling& b) noexcept {
@@ -44,6 +60,7 @@ TargetVerification::TargetVerification(const TargetBody& body, double gate, doub
     centroid_ += target.position;
   }
   centroid_ /= static_cast<double>(std::max<std::size_t>(1, targets_.size()));
+  if (has_faces_) log_aspects_ = std::log(most_aspects(targets_));
   for (const Target& target : targets_) radius_ = std::max(radius_, (target.position - centroid_).norm());
   for (std::size_t n = 1; n < log_factorial_.size(); ++n)
     log_factorial_[n] = log_factorial_[n - 1] + std::log(static_cast<double>(n));
@@ -158,14 +175,17 @@ void TargetVerification::try_other_minimum(const TargetLabelling& labelling,
   other = labelling;
 }
 
+std::size_t TargetVerification::turned_to(const Pose& rig_from_body,
+                                          const Eigen::Vector3d& origin) const noexcept {
+  if (!has_faces_) return targets_.size();
+  const Eigen::Vector3d viewpoint = rig_from_body.inverse() * origin;
+  return static_cast<std::size_t>(std::count_if(
+      targets_.begin(), targets_.end(), [&](const Target& target) { return faces(target, viewpoint); }));
+}
+
 std::size_t TargetVerification::least_explained(const Pose& rig_from_body) const noexcept {
-  std::size_t turned_here = targets_.size();
-  if (has_faces_) {
-    const Eigen::Vector3d viewpoint = rig_from_body.inverse() * patch_origin_;
-    turned_here = static_cast<std::size_t>(std::count_if(
-        targets_.begin(), targets_.end(), [&](const Target& target) { return faces(target, viewpoint); }));
-  }
-  const double part = std::ceil(least_part_ * static_cast<double>(turned_here));
+  const auto turned_here = static_cast<double>(turned_to(rig_from_body, patch_origin_));
+  const double part = std::ceil(least_part_ * turned_here);
   return std::max<std::size_t>(4, static_cast<std::size_t>(part));
 }
 
@@ -187,6 +207,7 @@ bool TargetVerification::grow(TargetLabelling& labelling) noexcept {
     return false;
   const Surroundings here = surroundings(labelling.pose);
   labelling.log_chance = log_chance(labelling.pose, here);
+  labelling.part = static_cast<double>(labelling.pairs.size()) / std::max(here.turned, 1.0);
   const double density = std::max(here.dots - 3, 1.0) / here.area;
   labelling.log_clutter = std::log(2 * std::numbers::pi * here.variance * density);
   return true;
@@ -315,7 +336,9 @@ TargetVerification::Surroundings TargetVerification::surroundings(
     if (inside > 0) {
       here.dots += inside;
       here.area += 2 * std::numbers::pi * (1 - smallest);
-      here.chances += static_cast<double>(targets_.size());
+      const auto turned = static_cast<double>(turned_to(solution.rig_from_body, dots_[first].origin));
+      here.chances += turned;
+      here.turned = std::max(here.turned, turned);
     }
     first = i;
   }
@@ -338,7 +361,8 @@ double TargetVerification::log_choose(double of, std::size_t k) const noexcept {
 double TargetVerification::log_chance(const PoseSolution& solution, const Surroundings& here) const noexcept {
   const std::size_t k = pairs_.size(), n = k - 3;
   const auto more = static_cast<double>(n);
-  const double m = static_cast<double>(targets_.size()), all = static_cast<double>(dots_.size());
+  // Only targets that one place sees together share a labelling: those turned to it, of every aspect.
+  const double m = std::max(here.turned, 3.0), all = static_cast<double>(dots_.size());
   // Ways to pair three dots of the neighbourhood with three targets, two poses each, over all neighbourhoods;
   // then n more targets with dots; every labelling comes up once for each three of its k dots.
   const double triples = std::log(std::max(1.0, all / here.dots) * here.dots * std::max(1.0, here.dots - 1) *
@@ -348,7 +372,7 @@ double TargetVerification::log_chance(const PoseSolution& solution, const Surrou
   for (std::size_t i = 0; i < n; ++i)
     arrangements += std::log(std::max(rest - static_cast<double>(i), 1.0) / here.area);
   const double variance = here.variance, chi2 = std::max(solution.chi2, more);
-  return triples + log_choose(here.chances - 3, n) + arrangements -
+  return log_aspects_ + triples + log_choose(here.chances - 3, n) + arrangements -
          0.5 * log_choose(static_cast<double>(k), 3) + more * std::log(std::numbers::pi * variance * chi2) -
          log_factorial_[n] + std::log(std::max(2.0, m - 3));
 }

@@ -19,6 +19,7 @@ namespace omma {
 struct TargetLabelling {
   PoseSolution pose;
   StaticVector<TargetPair, limits::kTargetPairs> pairs;
+  double part = 0;         ///< of the targets turned to the cameras that it explains
   double log_chance = 0;   ///< ln of the expected number of such labellings among dots strewn at random
   double log_clutter = 0;  ///< ln of the mean number of dots strewn at random in a dot's error ellipse
 };
@@ -51,6 +52,8 @@ class TargetVerification {
 
  private:
   bool grow(TargetLabelling& labelling) noexcept;
+  /// Targets on faces turned to a camera at `origin`.
+  std::size_t turned_to(const Pose& rig_from_body, const Eigen::Vector3d& origin) const noexcept;
   /// Targets that must be explained at a pose: a part of those whose faces are turned to the patch's camera.
   std::size_t least_explained(const Pose& rig_from_body) const noexcept;
   /// Over pairs_, which are then those the solver kept.
@@ -74,7 +77,8 @@ class TargetVerification {
   struct Surroundings {
     double dots = 0;
     double area = 0;      ///< [sr]
-    double chances = 0;   ///< targets looked for: those of the body, once a camera
+    double chances = 0;   ///< targets looked for: those turned to a camera, once a camera
+    double turned = 0;    ///< the most that are turned to one of them
     double variance = 0;  ///< mean of the paired dots' variances [rad²]
   };
   Surroundings surroundings(const PoseSolution& solution) const noexcept;
@@ -84,6 +88,7 @@ class TargetVerification {
 
   std::vector<Target> targets_;
   bool has_faces_ = false;
+  double log_aspects_ = 0;  ///< ln of the sets of targets that can be turned to a camera together
   Eigen::Vector3d centroid_ = Eigen::Vector3d::Zero();
   double radius_ = 0;  ///< of the body about its centroid [m]
   double gate_, least_part_;

@@ -9,7 +9,8 @@
 namespace omma {
 namespace {
 
-constexpr double kStarSnr = 10;     // fainter stars say little about the zero point
+constexpr std::uint32_t kSurePath = 10;  // sightings: on a shorter path warm pixels pass for stars
+constexpr double kStarSnr = 10;          // fainter stars say little about the zero point
 constexpr double kPartSigma = 0.3;  // of ln brightness: what a dot may lack of the light of a body that parts
 constexpr double kAnotherChi2 = 30;  // the pose is elsewhere than the light: that was another thing
 constexpr std::uint8_t kPartOfFlux = kDotSaturated | kDotAtEdge | kDotElongated | kDotHotPixel;
@@ -57,6 +58,7 @@ void Approach::step(const Tick& /*tick*/) noexcept {
     } else {
       if (!body.followed) choose_light(body);
       if (body.followed && attitude->valid) see_light(body);
+      look_again(body);
     }
     body.missed = body.seen ? 0 : body.missed + 1;
     const bool vague =
@@ -127,23 +129,55 @@ bool Approach::is_free(std::uint32_t object) const noexcept {
 
 void Approach::choose_light(Followed& body) noexcept {
   const UnknownObject* chosen = nullptr;
+  if (body.commanded_object == 0) {
+    chosen = brightest(body);
+  } else {
+    for (const UnknownObject& object : objects->objects)
+      if (object.bearing.seen && object.number == body.commanded_object) chosen = &object;
+  }
+  if (chosen != nullptr) follow(body, *chosen);
+}
+
+// Of the sky, and not what is followed already, under whatever number.
+const UnknownObject* Approach::brightest(const Followed& body) const noexcept {
+  const UnknownObject* found = nullptr;
   for (const UnknownObject& object : objects->objects) {
-    if (!object.bearing.seen) continue;
-    if (body.commanded_object != 0) {
-      if (object.number == body.commanded_object) chosen = &object;
-      continue;
-    }
     const bool of_the_sky =
         object.motion == ObjectMotion::kMoving || object.motion == ObjectMotion::kWithTheStars;
-    if (!of_the_sky || !is_free(object.number)) continue;
-    if (chosen == nullptr || object.bearing.flux > chosen->bearing.flux) chosen = &object;
+    if (!object.bearing.seen || !of_the_sky || object.sightings < kSurePath || !is_free(object.number))
+      continue;
+    const bool beside =
+        body.followed && (object.direction - body.bearing.direction()).norm() < parameters_.largest_sigma;
+    if (!beside && (found == nullptr || object.bearing.flux > found->bearing.flux)) found = &object;
   }
-  if (chosen == nullptr) return;
+  return found;
+}
+
+void Approach::follow(Followed& body, const UnknownObject& light) noexcept {
   body.followed = true;
   body.missed = 0;
-  body.object = chosen->number;
-  body.bearing.start(chosen->direction, chosen->covariance, 0.5 * parameters_.largest_rate);
+  body.object = light.number;
+  body.flux = light.bearing.flux;
+  body.bearing.start(light.direction, light.covariance, 0.5 * parameters_.largest_rate);
   body.range.restart();
+  body.doubt.start(light.direction, rig_from_j2000_);
+}
+
+// The choice was made on a short path. Fiducials, the ground, or a brightness that told a range settle it.
+void Approach::look_again(Followed& body) noexcept {
+  if (!body.followed || body.object == 0 || body.commanded_object != 0 || !attitude->valid) return;
+  const double sigma = std::sqrt(0.5 * body.bearing.covariance().trace());
+  if (body.seen && body.doubt.stands_with_rig(body.bearing.direction(), sigma, rig_from_j2000_)) {
+    lose(body);
+    return;
+  }
+  if (body.modes.mode() != RangeMode::kFar) return;
+  const UnknownObject* other = brightest(body);
+  const double flux = body.seen ? body.flux : 0;
+  if (body.doubt.outshone(other != nullptr ? other->number : 0, other != nullptr ? other->bearing.flux : 0,
+                          flux) &&
+      other != nullptr)
+    follow(body, *other);
 }
 
 void Approach::see_pose(Followed& body, const PoseEstimate& pose) noexcept {
@@ -207,6 +241,7 @@ void Approach::see_light(Followed& body) noexcept {
       sighting.whole = false;  // too faint to be added up, and dots may leave a part of the light out
     }
     if (!sighting.seen) continue;
+    body.flux = body.seen ? std::max(body.flux, sighting.flux) : sighting.flux;
     body.seen = true;
     body.summed = looked == Looked::kSeen;
     body.bearing.update(body.bearing.innovation(sighting.whitener, attitude_covariance_));

@@ -1,7 +1,7 @@
 // Approach: follows a body from a light among the stars to its fiducials. Its light is one of the unknown
-// objects: the one the ground names, else the brightest that is none of the rig. From then on it is followed
-// by itself: its direction, its range from brightness, and both from the pose once fiducials are told apart;
-// and back again when the body goes away.
+// objects: the one the ground names, else the brightest that is none of the rig; that choice is looked at
+// again every frame set until its range is known. It is followed by itself: its direction, its range from
+// brightness, and both from the pose once fiducials are told apart; and back again when the body goes away.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "components/approach/approach_estimate.hpp"
 #include "components/approach/approach_parameters.hpp"
 #include "components/approach/body_light.hpp"
+#include "components/approach/light_doubt.hpp"
 #include "components/approach/photometric_zero.hpp"
 #include "components/attitude/attitude_estimate.hpp"
 #include "components/camera/frames.hpp"
@@ -72,6 +73,8 @@ class Approach final : public Component, public CommandReceiver {
     bool seen = false;
     bool summed = false;  // ExpectedLight::summed
     double snr = 0;
+    double flux = 0;  // of its brightest camera, when it was seen last [grey levels]
+    LightDoubt doubt;
     int missed = 0;
     int unlike = 0;  // measurements of brightness in a row that do not fit what was known
     std::uint32_t object = 0;
@@ -82,6 +85,9 @@ class Approach final : public Component, public CommandReceiver {
   void predict(double seconds) noexcept;
   const PoseEstimate* pose_of(const Followed& body) const noexcept;
   void choose_light(Followed& body) noexcept;
+  const UnknownObject* brightest(const Followed& body) const noexcept;
+  void follow(Followed& body, const UnknownObject& light) noexcept;
+  void look_again(Followed& body) noexcept;
   bool is_free(std::uint32_t object) const noexcept;
   void see_pose(Followed& body, const PoseEstimate& pose) noexcept;
   void see_targets(Followed& body, const Eigen::Vector3d& position) noexcept;

@@ -74,10 +74,33 @@ void table(const char* title, CardProblemOptions options, int trials) {
   }
 }
 
+/// Clouds that do not hold the body: as many dots as its targets and as much clutter would have been.
+void absent_rows(int trials) {
+  CardProblemOptions options;
+  options.clutter = 0.5;
+  options.body_present = false;
+  std::printf("\n");
+  for (const int targets : {5, 8, 12, 25}) {
+    options.targets = targets;
+    for (const bool on_card : {false, true}) {
+      options.clutter_on_card = on_card;
+      char name[80];
+      std::snprintf(name, sizeof name, "%d targets, body absent, dots %s", targets,
+                    on_card ? "crowded" : "over the image");
+      run(name, options, trials);
+    }
+  }
+}
+
 }  // namespace
 
+/// Options: --trials N (200) clouds a row; --absent N: only the rows without the body, N clouds each.
 int bench_target_identification(int argc, char** argv) {
   const int trials = option(argc, argv, "--trials", 200);
+  if (const int absent = option(argc, argv, "--absent", 0); absent > 0) {
+    absent_rows(absent);
+    return 0;
+  }
   CardProblemOptions options;
   table("card, clutter over the image", options, trials);
   options.clutter_on_card = true;
@@ -101,21 +124,7 @@ int bench_target_identification(int argc, char** argv) {
       }
     }
   }
-  options.faces = false;
-  options.hidden = 0;
-  options.clutter = 0.5;
-  options.body_present = false;
-  std::printf("\n");
-  for (const int targets : {5, 8, 12, 25}) {
-    options.targets = targets;
-    for (const bool on_card : {false, true}) {
-      options.clutter_on_card = on_card;
-      char name[80];
-      std::snprintf(name, sizeof name, "%d targets, body absent, dots %s", targets,
-                    on_card ? "crowded" : "over the image");
-      run(name, options, trials);
-    }
-  }
+  absent_rows(trials);
   return 0;
 }
 

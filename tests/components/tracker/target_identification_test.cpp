@@ -120,6 +120,24 @@ TEST(TargetIdentification, ABoxIsFoundByWhicheverFacesShow) {
   }
 }
 
+// Five dots of thirty targets would be chance; of the five that one place sees together they are not.
+TEST(TargetIdentification, ABoxSeenFromOneSideIsFoundByThatFaceAlone) {
+  CardProblemOptions options;
+  options.faces = true;
+  options.targets = 5;
+  int seen = 0, found = 0;
+  for (std::uint64_t seed = 0; seen < 20; ++seed) {
+    const CardProblem problem = make_card_problem(options, seed);
+    if (problem.dots.size() != 5) continue;
+    ++seen;
+    const TargetIdentification answer = TargetIdentifier(problem.body).identify(problem.dots);
+    if (answer.status != TargetIdentificationStatus::kIdentified) continue;
+    ++found;
+    for (const TargetPair& pair : answer.pairs) EXPECT_EQ(problem.target_of_dot[pair.dot], pair.target);
+  }
+  EXPECT_GE(found, 18);
+}
+
 TEST(TargetIdentification, TwoCamerasShareOnePose) {
   CardProblemOptions options;
   options.cameras = 2;

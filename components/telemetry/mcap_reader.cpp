@@ -238,6 +238,9 @@ bool Reader::unpack(const Chunk& chunk) {
     if (ZSTD_isError(got) != 0 || got != size) return false;
   } else if (compression.empty() && payload.size() == size) {
     records_.assign(payload.begin(), payload.end());
+  } else if (compression == "lz4") {
+    throw InputError(path_, 0, "chunk", "no compression or zstd (mcap compress --compression zstd)",
+                     compression);
   } else {
     return false;
   }

@@ -25,7 +25,7 @@ bool read_memory(const TomlTable& camera) {
 }
 
 std::string read_memory_from(const TomlTable& camera, bool dma_buf) {
-  const std::string owner = camera.text("memory_from", "");
+  std::string owner = camera.text("memory_from", "");
   if (!owner.empty() && !dma_buf)
     throw camera.error("memory_from", R"(memory = "dma-buf" beside it)", "mmap");
   return owner;

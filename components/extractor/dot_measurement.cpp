@@ -33,14 +33,6 @@ constexpr double kLeastDiscSigma = 1.5;   // of a blob that may be a disc [px]
 constexpr std::size_t kMost = 2 * limits::kDotsPerCamera;
 constexpr int kSweeps = 2;  // over spots in each other's light, after the first
 
-int nearest_pixel(double place) {
-  return static_cast<int>(std::floor(place + 0.5));
-}
-
-int radius_for(double sigma) {
-  return std::clamp(static_cast<int>(std::ceil(2.6 * sigma + 0.3)), 3, SpotWindow::kRows / 2);
-}
-
 // Square root of the sum of squares; std::hypot is not the same on every machine.
 double length(double x, double y) {
   return std::sqrt(x * x + y * y);
@@ -62,6 +54,7 @@ double disc_sigma(const Candidate& candidate) {
 
 DotMeasurement::DotMeasurement(int width, int height, std::size_t dots) : field_(width, height, dots) {
   dot_of_spot_.reserve(dots);
+  lone_.reserve(dots);
   widths_.reserve(kSample);
   ranking_.reserve(dots);
   ranking_scratch_.reserve(dots);
@@ -109,32 +102,41 @@ bool DotMeasurement::fit_point(const Candidate& candidate, std::size_t self) noe
     if (window_.counted < kLeastPixels) return false;
     fit_spot(window_, noise, prior_, fit_);
     if (!fit_.usable) return false;
-    const int wanted = radius_for(fit_.sigma);
-    const bool centred =
-        std::abs(fit_.u - (window_.left + radius)) < 1.2 && std::abs(fit_.v - (window_.top + radius)) < 1.2;
-    if (centred && wanted <= radius + (radius > 5 ? 1 : 0)) break;
-    radius = wanted;
+    const bool central = is_central(fit_.u, fit_.v, window_.left + radius, window_.top + radius);
+    if (central && is_wide_enough(radius, fit_.sigma)) break;
+    radius = radius_for(fit_.sigma);
   }
+  return is_near(candidate);
+}
+
+bool DotMeasurement::is_near(const Candidate& candidate) const noexcept {
   return length(fit_.u - candidate.u, fit_.v - candidate.v) < 2 + fit_.sigma;
 }
 
 // A single lit pixel: its four neighbours together have less light than the narrowest spot would leave them,
 // beyond what noise explains.
-bool DotMeasurement::is_hot_pixel(const Candidate& candidate) const noexcept {
+bool DotMeasurement::is_hot_pixel(const Candidate& candidate, const MiddleLight& light) const noexcept {
+  constexpr double kSure = 3;
+  return light.known &&
+         static_cast<double>(light.around) + kSure * 2 * static_cast<double>(candidate.noise.sigma) <
+             4 * static_cast<double>(light.middle) * least_beside_;
+}
+
+MiddleLight DotMeasurement::middle_light() const noexcept {
   const int x = nearest_pixel(fit_.u) - window_.left;
   const int y = nearest_pixel(fit_.v) - window_.top;
-  if (x < 1 || y < 1 || x > window_.width - 2 || y > window_.height - 2) return false;
-  const auto at = [&](int row, int column) {
-    return static_cast<double>(window_.light[index_of(row, column, kSpotSide)]);
-  };
-  const double around = at(y - 1, x) + at(y + 1, x) + at(y, x - 1) + at(y, x + 1);
-  constexpr double kSure = 3;
-  return around + kSure * 2 * candidate.noise.sigma < 4 * at(y, x) * least_beside_;
+  return light_about(x, y, window_.width,
+                     [&](int row, int column) { return window_.light[index_of(row, column, kSpotSide)]; });
 }
 
 bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept {
   dot = Dot{};
-  if (!fit_point(candidate, self)) return false;
+  return fit_point(candidate, self) && judge_point(candidate, self, middle_light(), dot);
+}
+
+// What fit_ says: a point of light, or none.
+bool DotMeasurement::judge_point(const Candidate& candidate, std::size_t self, const MiddleLight& light,
+                                 Dot& dot) noexcept {
   const double stretch = length(fit_.stretch, fit_.skew);
   const double sigma2 = fit_.sigma * fit_.sigma;
   const bool elongated = is_elongated(fit_);
@@ -145,14 +147,14 @@ bool DotMeasurement::measure_point(const Candidate& candidate, std::size_t self,
   dot.pixel = {fit_.u, fit_.v};
   dot.covariance = grown(fit_.covariance, fit_.chi2_per_pixel, dot.snr);
   if (fit_.chi2_per_pixel < significant_chi2()) {
-    residuals_ += fit_.chi2_per_pixel * window_.counted;
-    pixels_ += window_.counted;
+    residuals_ += fit_.chi2_per_pixel * fit_.counted;
+    pixels_ += fit_.counted;
   }
   dot.flux = static_cast<float>(fit_.flux);
   dot.sigma_major = static_cast<float>(std::sqrt(sigma2 + stretch));
   dot.sigma_minor = static_cast<float>(std::sqrt(std::max(0.04, sigma2 - stretch)));
   if (elongated && dot.sigma_major > parameters_->elongation * dot.sigma_minor) dot.flags |= kDotElongated;
-  if (candidate.saturated == 0 && is_hot_pixel(candidate)) {
+  if (candidate.saturated == 0 && is_hot_pixel(candidate, light)) {
     dot.flags |= kDotHotPixel;
     if (!parameters_->keep_hot_pixels) return false;
   }
@@ -197,7 +199,7 @@ bool DotMeasurement::try_trail(const Candidate& candidate, std::size_t self, Dot
 }
 
 double DotMeasurement::significant_chi2() const noexcept {
-  return 1 + 3 * std::sqrt(2.0 / std::max(1, window_.counted));
+  return 1 + 3 * std::sqrt(2.0 / std::max(1, fit_.counted));
 }
 
 // The light of faint and wide spots makes the noise map a little too large; what the fits left over says by
@@ -323,7 +325,9 @@ bool DotMeasurement::remeasure_crowded(const std::vector<Candidate>& candidates,
   for (std::size_t i = 0; i < field_.size(); ++i) {
     if (dot_of_spot_[i] < 0) continue;
     start_at(field_[i]);
-    if (field_.is_alone(i, radius_for(fit_.sigma))) continue;
+    const int radius = radius_for(fit_.sigma);
+    if (lone_[i] != 0 && field_.is_far(ahead_.distance(), radius)) continue;
+    if (field_.is_alone(i, radius)) continue;
     any = true;
     Dot dot;
     if (measure_point(candidates[i], i, dot) &&
@@ -367,6 +371,7 @@ float DotMeasurement::start(const ImageView& image, bool invert, const Extractor
   prior_.aperture = std::sqrt(parameters.fill_factor);
   field_.clear();
   dot_of_spot_.clear();
+  lone_.assign(candidates.size(), 0);
   put_in_order(candidates);
   learn_width(candidates);
   return width_known_ ? prior_.sigma : 0;
@@ -393,13 +398,26 @@ std::size_t DotMeasurement::measure(const std::vector<Candidate>& candidates,
   for (std::size_t i = 0; i < candidates.size() && dots.size() < enough; ++i, ++measured) {
     const Candidate& candidate = candidates[i];
     Dot dot;
-    start_at(candidate);
-    if (field_[i].flux > 0) start_at(field_[i]);
-    bool point = may_be_point(candidate) && measure_point(candidate, i, dot);
+    if (i % FitsAhead::kMost == 0 && width_known_ && !trails_)
+      ahead_.fit({image_, invert_, masks_}, prior_, parameters_->max_point_sigma, field_, candidates, i);
+    const FitAhead* ahead = width_known_ && !trails_ ? &ahead_[i % FitsAhead::kMost] : nullptr;
+    bool point = false;
+    if (ahead != nullptr && ahead->state == FitAhead::kDone) {
+      lone_[i] = 1;
+      crowded_ = false;
+      fit_ = ahead->fit;
+      point = is_near(candidate) && judge_point(candidate, i, ahead->light, dot);
+    } else {
+      start_at(candidate);
+      if (field_[i].flux > 0) start_at(field_[i]);
+      if (ahead != nullptr && ahead->state == FitAhead::kBegun) fit_ = ahead->fit;
+      point = may_be_point(candidate) && measure_point(candidate, i, dot);
+    }
     if (point && candidate.saturated > 0 && is_better_as_disc(candidate, dot)) point = false;
     field_.set(i, {});
     if (point) {
-      if (field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v))) continue;
+      if (lone_[i] == 0 && field_.has_twin(i, static_cast<float>(fit_.u), static_cast<float>(fit_.v)))
+        continue;
       field_.set(i, fitted());
       dot_of_spot_[i] = static_cast<int>(dots.size());
     } else if (!measure_disc(candidate, dot)) {

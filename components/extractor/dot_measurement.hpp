@@ -11,6 +11,7 @@
 #include "components/extractor/dot.hpp"
 #include "components/extractor/extractor_parameters.hpp"
 #include "components/extractor/falling_order.hpp"
+#include "components/extractor/fits_ahead.hpp"
 #include "components/extractor/spot_field.hpp"
 #include "components/extractor/spot_fit.hpp"
 #include "components/extractor/trail_fit.hpp"
@@ -43,6 +44,9 @@ class DotMeasurement {
   bool try_trail(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
   bool may_be_point(const Candidate& candidate) const noexcept;
   bool measure_point(const Candidate& candidate, std::size_t self, Dot& dot) noexcept;
+  bool judge_point(const Candidate& candidate, std::size_t self, const MiddleLight& light, Dot& dot) noexcept;
+  bool is_near(const Candidate& candidate) const noexcept;
+  MiddleLight middle_light() const noexcept;
   bool is_better_as_disc(const Candidate& candidate, const Dot& dot) const noexcept;
   bool measure_disc(const Candidate& candidate, Dot& dot) const noexcept;
   void start_at(const Candidate& candidate) noexcept;
@@ -51,7 +55,7 @@ class DotMeasurement {
   bool fit_point(const Candidate& candidate, std::size_t self) noexcept;
   void load(double u, double v, int radius) noexcept;
   void set_narrowest(float sigma) noexcept;
-  bool is_hot_pixel(const Candidate& candidate) const noexcept;
+  bool is_hot_pixel(const Candidate& candidate, const MiddleLight& light) const noexcept;
   bool remeasure_crowded(const std::vector<Candidate>& candidates, std::vector<Dot>& dots) noexcept;
   bool is_blind(const Eigen::Vector2d& pixel) const noexcept;
   void finish(const Candidate& candidate, Dot& dot) const noexcept;
@@ -72,6 +76,8 @@ class DotMeasurement {
   double residuals_ = 0, pixels_ = 0;  // χ² of the spots that are as the model says, and their pixels
   SpotField field_;                    // one spot a candidate
   std::vector<int> dot_of_spot_;       // −1: none
+  FitsAhead ahead_;
+  std::vector<std::uint8_t> lone_;  // 1: of a spot that was fitted ahead
   std::vector<float> widths_;
   std::vector<Ranked> ranking_, ranking_scratch_;
   std::vector<Candidate> unordered_;

@@ -4,28 +4,32 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <type_traits>
 
 namespace omma {
 
-template <int N>
+/// Real: double, or a vector of floats for as many matrices side by side.
+template <int N, class Real = double>
 struct NormalFactor {
-  double l[N][N];     ///< ones on the diagonal, not kept
-  double inverse[N];  ///< of D
+  Real l[N][N];     ///< ones on the diagonal, not kept
+  Real inverse[N];  ///< of D; not positive in the lanes of a vector whose matrix is not positive definite
 
   /// @param h  lower triangle
-  /// @return false where it is not positive definite
-  bool factorise(const double (&h)[N][N]) {
-    double ld[N][N];
+  /// @return false where it is not positive definite; true of vectors
+  [[gnu::always_inline]] bool factorise(const Real (&h)[N][N]) {
+    Real ld[N][N];
 #pragma GCC unroll 8
     for (int j = 0; j < N; ++j) {
-      double diagonal = h[j][j];
+      Real diagonal = h[j][j];
 #pragma GCC unroll 8
       for (int k = 0; k < j; ++k) diagonal -= l[j][k] * ld[j][k];
-      if (!(diagonal > 0)) return false;
-      inverse[j] = 1 / diagonal;
+      if constexpr (std::is_floating_point_v<Real>) {
+        if (!(diagonal > 0)) return false;
+      }
+      inverse[j] = (Real{} + 1) / diagonal;
 #pragma GCC unroll 8
       for (int i = j + 1; i < N; ++i) {
-        double sum = h[i][j];
+        Real sum = h[i][j];
 #pragma GCC unroll 8
         for (int k = 0; k < j; ++k) sum -= ld[i][k] * l[j][k];
         ld[i][j] = sum;
@@ -35,8 +39,8 @@ struct NormalFactor {
     return true;
   }
 
-  void solve(const double (&g)[N], double (&x)[N]) const {
-    double y[N];
+  [[gnu::always_inline]] void solve(const Real (&g)[N], Real (&x)[N]) const {
+    Real y[N];
 #pragma GCC unroll 8
     for (int i = 0; i < N; ++i) {
       y[i] = g[i];

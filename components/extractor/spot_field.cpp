@@ -44,19 +44,34 @@ std::size_t SpotField::add(const FieldSpot& spot) noexcept {
   return spots_.size() - 1;
 }
 
-// Visits every spot within `distance` of (u, v) on both axes, and some beyond.
+// Visits every spot added within `distance` of (u, v) on both axes, and some beyond.
 template <class Visit>
-void SpotField::for_near(float u, float v, float distance, Visit&& visit) const noexcept {
-  distance += largest_move_;
+void SpotField::for_added(float u, float v, float distance, Visit&& visit) const noexcept {
   const auto cell = [](float x) { return static_cast<int>(std::max(0.0F, x)) / kCell; };
   for (int r = cell(v - distance); r <= std::min(rows_ - 1, cell(v + distance)); ++r) {
     for (int c = cell(u - distance); c <= std::min(columns_ - 1, cell(u + distance)); ++c) {
-      for (int i = first_[index_of(r, c, columns_)]; i >= 0; i = homes_[static_cast<std::size_t>(i)].next) {
-        const FieldSpot& spot = spots_[static_cast<std::size_t>(i)];
-        if (spot.flux > 0) visit(static_cast<std::size_t>(i), spot);
-      }
+      for (int i = first_[index_of(r, c, columns_)]; i >= 0; i = homes_[index_of(i)].next) visit(index_of(i));
     }
   }
+}
+
+// The same for those that have light, wherever they were added.
+template <class Visit>
+void SpotField::for_near(float u, float v, float distance, Visit&& visit) const noexcept {
+  for_added(u, v, distance + largest_move_, [&](std::size_t i) {
+    if (spots_[i].flux > 0) visit(i, spots_[i]);
+  });
+}
+
+bool SpotField::is_lone(std::size_t self, float distance) const noexcept {
+  const Home& at = homes_[self];
+  bool lone = true;
+  for_added(at.u, at.v, distance, [&](std::size_t i) {
+    const Home& other = homes_[i];
+    lone =
+        lone && (i == self || std::fabs(other.u - at.u) > distance || std::fabs(other.v - at.v) > distance);
+  });
+  return lone;
 }
 
 void SpotField::set(std::size_t i, const FieldSpot& spot) noexcept {

@@ -36,10 +36,19 @@ class SpotField {
   bool take_away(std::size_t self, float noise, SpotWindow& window) const noexcept;
   /// Whether no other spot's light reaches within `radius` of spot number `self`.
   bool is_alone(std::size_t self, int radius) const noexcept;
+  /// Whether none but spot number `self` was added within `distance` of it on both axes, light or not.
+  bool is_lone(std::size_t self, float distance) const noexcept;
+  /// Of two spots added so far from each other on an axis, whether none has light within `radius` of the
+  /// other.
+  bool is_far(float distance, int radius) const noexcept {
+    return distance >= static_cast<float>(radius) + 1 + largest_reach_ + 2 * largest_move_;
+  }
   /// Whether another spot than number `self` is so near that the two cannot be told apart.
   bool has_twin(std::size_t self, float u, float v) const noexcept;
 
  private:
+  template <class Visit>
+  void for_added(float u, float v, float distance, Visit&& visit) const noexcept;
   template <class Visit>
   void for_near(float u, float v, float distance, Visit&& visit) const noexcept;
 

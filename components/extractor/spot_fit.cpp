@@ -6,32 +6,15 @@
 #include "components/extractor/clones.hpp"
 #include "components/extractor/lanes.hpp"
 #include "components/extractor/normal_factor.hpp"
+#include "components/extractor/spot_steps.hpp"
+#include "components/extractor/spot_sums.hpp"
 
 namespace omma {
 namespace {
 
 constexpr std::size_t kGroups = kSpotSide / kLanes;
 constexpr int kIterations = 10;
-// Unknowns: flux, sigma, background, u, v, in this order, so that the last block of the Cholesky factor is
-// the place's, all else unknown.
-constexpr int kUnknowns = 5;
-constexpr double kLeastSigma = 0.2;    // [px]
-constexpr double kLargestSigma = 5.0;  // [px]
-// A step this small against the place's own error is the last: the next would be smaller by the
-// signal-to-noise ratio and more.
-constexpr double kLastStep = 0.4;
-// So is one after which the model's curvature leaves no more than this of that error, as long as the flux, on
-// which the covariance depends, is about right.
-constexpr double kCurvature = 0.15;
-constexpr double kFluxStep = 0.12;
-
-// Sums over the rows, column by column: of the weight times products of the row's factors E, D = ∂E/∂v,
-// S = ∂E/∂σ, and of the weighted residual times the factors. The model is a product of a row's factor and a
-// column's, so everything the normal equations need follows from these.
-struct ColumnSums {
-  Floats ee, ed, es, dd, ds, ss, e, d, s, one;
-  Floats re, rd, rs, r, rr;
-};
+using spot_steps::kUnknowns;
 
 struct NormalEquations {
   double h[kUnknowns][kUnknowns];  // lower triangle
@@ -63,25 +46,7 @@ struct State {
     const Floats w = load(&window.weight[y * kSpotSide + first]) /
                      (variance.dark + (variance.per_light + variance.per_square * spot) * spot);
     const Floats residual = load(&window.light[y * kSpotSide + first]) - spot - background;
-    const Floats wr = w * residual;
-    const Floats we = w * e;
-    const Floats wd = w * d;
-    const Floats ws = w * s;
-    sums.one += w;
-    sums.e += we;
-    sums.d += wd;
-    sums.s += ws;
-    sums.ee += we * e;
-    sums.ed += we * d;
-    sums.es += we * s;
-    sums.dd += wd * d;
-    sums.ds += wd * s;
-    sums.ss += ws * s;
-    sums.r += wr;
-    sums.re += wr * e;
-    sums.rd += wr * d;
-    sums.rs += wr * s;
-    sums.rr += wr * residual;
+    sums.add(w, residual, e, d, s);
   }
   result = sums;
 }
@@ -91,43 +56,18 @@ using ColumnGroups = std::array<ColumnSums, kGroups>;
 [[gnu::always_inline]] inline void normal_equations(const ColumnGroups& groups, std::size_t used,
                                                     const SpotProfile& along_u, double flux,
                                                     NormalEquations& n) {
-  Floats aa{}, as{}, ab{}, au{}, av{}, ss{}, sb{}, su{}, sv{}, bb{}, bu{}, bv{}, uu{}, uv{}, vv{};
-  Floats ga{}, gs{}, gb{}, gu{}, gv{}, rr{};
+  NormalSums sum{};
   for (std::size_t k = 0; k < used; ++k) {
-    const ColumnSums& c = groups[k];
-    const Floats e = load(&along_u.share[kLanes * k]);
-    const Floats d = load(&along_u.by_place[kLanes * k]);
-    const Floats s = load(&along_u.by_sigma[kLanes * k]);
-    const Floats e_ee = e * c.ee;
-    const Floats e_ed = e * c.ed;
-    const Floats by_sigma = s * c.ee + e * c.es;
-    aa += e * e_ee;
-    as += e * by_sigma;
-    ab += e * c.e;
-    au += d * e_ee;
-    av += e * e_ed;
-    ss += s * by_sigma + e * (s * c.es + e * c.ss);
-    sb += s * c.e + e * c.s;
-    su += d * by_sigma;
-    sv += e * (s * c.ed + e * c.ds);
-    bb += c.one;
-    bu += d * c.e;
-    bv += e * c.d;
-    uu += d * d * c.ee;
-    uv += d * e_ed;
-    vv += e * e * c.dd;
-    ga += e * c.re;
-    gs += s * c.re + e * c.rs;
-    gb += c.r;
-    gu += d * c.re;
-    gv += e * c.rd;
-    rr += c.rr;
+    sum.add(groups[k], load(&along_u.share[kLanes * k]), load(&along_u.by_place[kLanes * k]),
+            load(&along_u.by_sigma[kLanes * k]));
   }
   const double f = flux;
   const Floats none{};
-  const HalfFloats flux_row = sums(aa, ab, ga, rr), sigma_row = sums(as, sb, gs, none);
-  const HalfFloats squares = sums(ss, uu, uv, vv), across = sums(su, sv, bb, gb);
-  const HalfFloats place = sums(au, av, bu, bv), scores = sums(gu, gv, none, none);
+  const HalfFloats flux_row = sums(sum.aa, sum.ab, sum.ga, sum.rr),
+                   sigma_row = sums(sum.as, sum.sb, sum.gs, none);
+  const HalfFloats squares = sums(sum.ss, sum.uu, sum.uv, sum.vv),
+                   across = sums(sum.su, sum.sv, sum.bb, sum.gb);
+  const HalfFloats place = sums(sum.au, sum.av, sum.bu, sum.bv), scores = sums(sum.gu, sum.gv, none, none);
   const auto at = [](const HalfFloats& x, int i) __attribute__((always_inline)) {
     return static_cast<double>(x[i]);
   };
@@ -161,21 +101,15 @@ OMMA_CLONES void evaluate(const SpotWindow& window, const State& at, const Varia
 // The two shapes that a round model leaves out, from their scores and informations at the solution.
 OMMA_CLONES void set_shape(const ColumnGroups& groups, std::size_t used, const SpotProfile& along_u,
                            double flux, double sigma, SpotFit& fit) {
-  Floats skew_score{}, skew_information{}, stretch_score{}, stretch_information{};
+  ShapeSums shape{};
   for (std::size_t k = 0; k < used; ++k) {
-    const ColumnSums& c = groups[k];
-    const Floats e = load(&along_u.share[kLanes * k]);
-    const Floats d = load(&along_u.by_place[kLanes * k]);
-    const Floats s = load(&along_u.by_sigma[kLanes * k]);
-    skew_score += d * c.rd;
-    skew_information += d * d * c.dd;
-    stretch_score += s * c.re - e * c.rs;
-    stretch_information += s * (s * c.ee - 2.0F * e * c.es) + e * e * c.ss;
+    shape.add(groups[k], load(&along_u.share[kLanes * k]), load(&along_u.by_place[kLanes * k]),
+              load(&along_u.by_sigma[kLanes * k]));
   }
-  const double skewed = flux * static_cast<double>(sum(skew_information));
-  const double stretched = flux * static_cast<double>(sum(stretch_information));
-  fit.skew = skewed > 0 ? static_cast<double>(sum(skew_score)) / skewed : 0;
-  fit.stretch = stretched > 0 ? 2 * sigma * static_cast<double>(sum(stretch_score)) / stretched : 0;
+  const double skewed = flux * static_cast<double>(sum(shape.skew_information));
+  const double stretched = flux * static_cast<double>(sum(shape.stretch_information));
+  fit.skew = skewed > 0 ? static_cast<double>(sum(shape.skew_score)) / skewed : 0;
+  fit.stretch = stretched > 0 ? 2 * sigma * static_cast<double>(sum(shape.stretch_score)) / stretched : 0;
   fit.shape_error = skewed > 0 ? 1 / std::sqrt(flux * skewed) : 0;
 }
 
@@ -222,25 +156,26 @@ void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior
     factor.solve(n.g, step);
     flux_before = at.flux;
     sigma_before = at.sigma;
-    at.flux = std::max(0.2 * at.flux, at.flux + step[0]);
-    at.sigma = std::clamp(at.sigma + std::clamp(step[1], -0.3 * at.sigma, 0.4 * at.sigma), kLeastSigma,
-                          kLargestSigma);
+    at.flux = std::max(spot_steps::kFainter * at.flux, at.flux + step[0]);
+    at.sigma = std::clamp(
+        at.sigma + std::clamp(step[1], spot_steps::kNarrower * at.sigma, spot_steps::kWider * at.sigma),
+        spot_steps::kLeastSigma, spot_steps::kLargestSigma);
     at.background += step[2];
     for (int i = 3; i < 5; ++i) step[i] = std::clamp(step[i], -sigma_before, sigma_before);
     at.u += step[3];
     at.v += step[4];
     if (!(at.u > -1 && at.u < window.width && at.v > -1 && at.v < window.height)) return;
     const double change = at.sigma - sigma_before;
-    settled = step[3] * step[3] < kLastStep * kLastStep * factor.inverse[3] &&
-              step[4] * step[4] < kLastStep * kLastStep * factor.inverse[4] &&
-              change * change < kLastStep * kLastStep * factor.inverse[1];
+    settled = step[3] * step[3] < spot_steps::kLastStep * spot_steps::kLastStep * factor.inverse[3] &&
+              step[4] * step[4] < spot_steps::kLastStep * spot_steps::kLastStep * factor.inverse[4] &&
+              change * change < spot_steps::kLastStep * spot_steps::kLastStep * factor.inverse[1];
     const double moved = step[3] * step[3] + step[4] * step[4];
     const double brighter = std::abs(at.flux / flux_before - 1);
     const double left =
         brighter + 2 * std::abs(change) / sigma_before + 0.25 * moved / (sigma_before * sigma_before);
-    settled = settled || (brighter < kFluxStep &&
-                          moved * left * left <
-                              kCurvature * kCurvature * std::min(factor.inverse[3], factor.inverse[4]));
+    settled = settled || (brighter < spot_steps::kFluxStep &&
+                          moved * left * left < spot_steps::kCurvature * spot_steps::kCurvature *
+                                                    std::min(factor.inverse[3], factor.inverse[4]));
   }
   fit.covariance =
       factor.covariance_of_place() * covariance_growth({flux_before, sigma_before, 0, 0, 0}, at, variance);
@@ -252,6 +187,7 @@ void fit_spot(const SpotWindow& window, const PixelNoise& noise, const SpotPrior
   double gained = 0;  // by the last step
   for (int i = 0; i < kUnknowns; ++i) gained += step[i] * n.g[i];
   fit.chi2_per_pixel = std::max(0.0, n.chi2 - gained) / std::max(1, window.counted - kUnknowns);
+  fit.counted = window.counted;
   fit.usable = at.flux > 0;
   fit.flux = at.flux;
   fit.u = at.u + window.left;

@@ -26,6 +26,7 @@ struct SpotFit {
          background = 0;  ///< [grey levels], image [px], [px], [grey levels]
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< of (u, v) [px²]
   double flux_information = 0;                               ///< with all else known [grey levels⁻²]
+  int counted = 0;                                           ///< pixels
   double chi2_per_pixel = 0;  ///< about 1 where the pixels are as the model says
   /// Second moments beyond a round spot: C = σ² I + [d c; c −d] [px²]
   double stretch = 0, skew = 0;

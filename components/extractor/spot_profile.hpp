@@ -36,6 +36,25 @@ constexpr int padded(int pixels) {
   return (pixels + 7) & ~7;
 }
 
+// Φ(z), φ(z) and z φ(z) at the edges of pixels.
+struct PixelEdge {
+  Floats below, density, moment;
+
+  [[gnu::always_inline]] explicit PixelEdge(const Floats& z) {
+    const Floats size = z < 0.0F ? -z : z;
+    const Floats bell = exp_of_negative(-0.5F * z * z);
+    const Floats t = 1.0F / (1.0F + 0.23164190F * size);  // 0.3275911 / √2
+    Floats tail = Floats{} + 1.061405429F;
+    tail = tail * t - 1.453152027F;
+    tail = tail * t + 1.421413741F;
+    tail = tail * t - 0.284496736F;
+    tail = 0.5F * (tail * t + 0.254829592F) * t * bell;
+    below = z < 0.0F ? tail : 1.0F - tail;
+    density = 0.398942280F * bell;
+    moment = 0.398942280F * z * bell;
+  }
+};
+
 struct SpotProfile {
   std::array<float, kSpotSide> share;     ///< of the light in pixel i
   std::array<float, kSpotSide> by_place;  ///< ∂share/∂place [1/px]
@@ -82,24 +101,7 @@ struct SpotProfile {
   }
 
  private:
-  // Φ(z), φ(z) and z φ(z) at the edges of pixels.
-  struct Edge {
-    Floats below, density, moment;
-
-    [[gnu::always_inline]] explicit Edge(const Floats& z) {
-      const Floats size = z < 0.0F ? -z : z;
-      const Floats bell = exp_of_negative(-0.5F * z * z);
-      const Floats t = 1.0F / (1.0F + 0.23164190F * size);  // 0.3275911 / √2
-      Floats tail = Floats{} + 1.061405429F;
-      tail = tail * t - 1.453152027F;
-      tail = tail * t + 1.421413741F;
-      tail = tail * t - 0.284496736F;
-      tail = 0.5F * (tail * t + 0.254829592F) * t * bell;
-      below = z < 0.0F ? tail : 1.0F - tail;
-      density = 0.398942280F * bell;
-      moment = 0.398942280F * z * bell;
-    }
-  };
+  using Edge = PixelEdge;
   // One lane further along a row of which two vectors are given.
   [[gnu::always_inline]] static Floats following(const Floats& here, const Floats& next) {
     return __builtin_shufflevector(here, next, 1, 2, 3, 4, 5, 6, 7, 8);

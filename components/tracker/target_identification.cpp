@@ -20,7 +20,7 @@ constexpr double kBeyondDoubt = -12.0;  // log-chance at which the search stops
 // others.
 constexpr std::uint32_t kSecondLooks = 60, kLooksElsewhere = 8;
 // Of the bound on chance matches: labellings that explain less than the usual part of the targets turned to
-// the cameras get a thousandth of it (ln), for chance makes many of them and the body few.
+// the cameras, or four of more, get a thousandth of it (ln), for chance makes many of them and the body few.
 constexpr double kUsualPart = 0.7, kShareOfFew = -6.9;
 constexpr double kImprobable = 6.0;  // χ² this many of its standard deviations too large is not noise
 
@@ -199,7 +199,8 @@ void TargetIdentifier::Work::judge(TargetIdentification& result) noexcept {
 bool TargetIdentifier::Work::credible(const TargetLabelling& labelling) const noexcept {
   const double freedom = 2.0 * static_cast<double>(labelling.pairs.size()) - 6;
   const bool fits = labelling.pose.chi2 <= freedom + kImprobable * std::sqrt(2 * freedom);
-  const double share = labelling.part < kUsualPart ? kShareOfFew : 0.0;
+  const bool few = labelling.part < kUsualPart || (labelling.pairs.size() == 4 && labelling.part < 1);
+  const double share = few ? kShareOfFew : 0.0;
   return labelling.log_chance <= std::min(options.largest_log_chance + share, fits ? 0.0 : kBeyondDoubt);
 }
 

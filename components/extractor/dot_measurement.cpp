@@ -13,9 +13,11 @@ namespace {
 constexpr std::size_t kSample = 16;  // spots the width is learnt from
 constexpr std::size_t kEnough = 6;
 constexpr float kUnlearntWidth = 0.7F;  // error of the width before it is learnt, as a share of it
-constexpr float kWidthSnr = 8;          // their least signal-to-noise ratio
-constexpr float kNarrowest = 0.55F;     // spot of an image, in widths of its point spread
-constexpr double kModelError = 0.001;   // what no model of a real spot is better than [px]
+// Their least signal-to-noise ratio, and what will do where too few have that.
+constexpr double kWidthSnr = 8;
+constexpr double kFaintWidthSnr = 5;
+constexpr float kNarrowest = 0.55F;    // spot of an image, in widths of its point spread
+constexpr double kModelError = 0.001;  // what no model of a real spot is better than [px]
 // Towards the detection limit a spot's place errs more than its Fisher information says: the next term of
 // the expansion in 1/SNR; factor from docs/algorithms/extractor.md#threshold.
 constexpr double kSecondOrder = 8;
@@ -278,6 +280,8 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   // Some from all that may be handed over: the very brightest may be something else than stars, and so may
   // the faintest of a flood.
   std::size_t elongated = 0;
+  std::array<float, kSample> faint_widths{};
+  std::size_t faint = 0;
   const std::size_t drawn_from = std::min(candidates.size(), limits::kDotsPerCamera);
   const std::size_t stride = std::max<std::size_t>(1, drawn_from / (2 * kSample));
   for (std::size_t i = 0; i < candidates.size() && widths_.size() < kSample; i += stride) {
@@ -290,12 +294,17 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
     prior_.sigma_error = kUnlearntWidth * prior_.sigma;
     if (!fit_point(candidate, field_.size())) continue;
     if (fit_.sigma < parameters_->min_sigma || fit_.sigma > parameters_->max_point_sigma) continue;
-    if (fit_.flux * std::sqrt(fit_.flux_information) < kWidthSnr) continue;
+    const double snr = fit_.flux * std::sqrt(fit_.flux_information);
+    if (snr < kWidthSnr && snr > kFaintWidthSnr && faint < kSample)
+      faint_widths[faint++] = static_cast<float>(fit_.sigma);
+    if (snr < kWidthSnr) continue;
     widths_.push_back(static_cast<float>(fit_.sigma));
     elongated += is_elongated(fit_) ? 1 : 0;
   }
   // One long spot may be two stars; when most are long, the camera moved.
   trails_ = 2 * elongated > widths_.size();
+  if (widths_.size() < kEnough)
+    for (std::size_t i = 0; i < faint && widths_.size() < kSample; ++i) widths_.push_back(faint_widths[i]);
   prior_.sigma = 1.0F;
   prior_.sigma_error = kUnlearntWidth;
   if (widths_.size() < kEnough) return;

@@ -63,6 +63,15 @@ INSTANTIATE_TEST_SUITE_P(Spots, SpotAccuracy,
                                          Case{2.5, 100, 1, 40, 255}, Case{2.0, 20, 2, 0, 255},
                                          Case{0.7, 100, 3, 2, 4095}, Case{1.0, 30, 60, 4, 65535}));
 
+// Where none tells the width well, the faint ones together tell it: wide ones are then looked for as such.
+TEST(Spots, ThatAreAllFaintAndWideAreFoundWhole) {
+  const SpotScore score = score_of({2.5, 7, 2, 0, 255}, 4);
+  EXPECT_GT(score.found, 0.7 * score.spots);
+  EXPECT_LE(score.false_dots, 4);
+  EXPECT_LT(score.ratio(), 1.1);
+  EXPECT_LT(score.mean_nees(), 2.5);
+}
+
 TEST(Spots, OfBrightAndOfDarkDotsMirrorEachOther) {
   const Case c{1.0, 30, 2, 0, 255};
   const SpotScore bright = score_of(c, 1);

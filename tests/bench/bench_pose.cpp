@@ -2,7 +2,7 @@
 // NEES (sure: of those not flagged as ambiguous; tail: beyond what one in a thousand is due, flag: flagged of
 // them), failures (beyond 6 σ), iterations. Peers on the same problem and machine, median µs for N = 8/20/60:
 // PoseLib 11.7/19.9/49 warm and 62/91/186 cold, Ceres 33/57/126 warm. `--methods`: the reference methods of
-// ground/methods instead, side by side with ours.
+// ground/methods instead, side by side with ours. `--minima`: beside the global minimum of the same cost.
 #include <Eigen/LU>
 #include <cstdio>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "components/estimation/pose_search.hpp"
 #include "tests/bench/bench_fisheye_card.hpp"
 #include "tests/bench/bench_pose_methods.hpp"
+#include "tests/bench/bench_pose_minima.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/repeatability.hpp"
@@ -181,6 +182,10 @@ int bench_pose(int argc, char** argv) {
   const int trials = option(argc, argv, "--trials", 400);
   if (has_option(argc, argv, "--methods")) {
     compare_pose_methods(trials);
+    return 0;
+  }
+  if (has_option(argc, argv, "--minima")) {
+    bench_pose_minima(trials);
     return 0;
   }
   warm(trials);

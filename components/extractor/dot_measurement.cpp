@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kSample = 16;  // spots the width is learnt from
 constexpr std::size_t kEnough = 6;
-constexpr float kUnlearntWidth = 0.7F;  // error of the width before it is learnt, as a share of it
+constexpr std::size_t kEnoughFaint = 9;  // of a few faint ones noise may be the most
+constexpr float kUnlearntWidth = 0.7F;   // error of the width before it is learnt, as a share of it
 // Their least signal-to-noise ratio, and what will do where too few have that.
 constexpr double kWidthSnr = 8;
 constexpr double kFaintWidthSnr = 5;
@@ -303,7 +304,7 @@ void DotMeasurement::learn_width(const std::vector<Candidate>& candidates) noexc
   }
   // One long spot may be two stars; when most are long, the camera moved.
   trails_ = 2 * elongated > widths_.size();
-  if (widths_.size() < kEnough)
+  if (widths_.size() < kEnough && faint >= kEnoughFaint)
     for (std::size_t i = 0; i < faint && widths_.size() < kSample; ++i) widths_.push_back(faint_widths[i]);
   prior_.sigma = 1.0F;
   prior_.sigma_error = kUnlearntWidth;

@@ -25,14 +25,13 @@ class Ros2Recording : public ::testing::Test {
   void SetUp() override {
     if (test::run_program("node --version").exit_code != 0) GTEST_SKIP() << "node is not installed";
     const std::filesystem::path modules = std::filesystem::path(OMMA_BINARY_DIR) / "ros2_modules";
-    if (!std::filesystem::exists(modules / "complete")) {
-      std::filesystem::create_directories(modules);
-      const test::ProgramRun install = test::run_program(
-          "timeout 60 npm install --no-save --no-audit --prefix " + modules.string() + " " + kModules);
-      if (install.exit_code != 0)
-        GTEST_SKIP() << "the public writer's modules are not to be had: " << install.output;
-      std::ofstream(modules / "complete") << "";
-    }
+    std::filesystem::create_directories(modules);
+    // One after the other: both tests may run at once, and each wants the modules.
+    const test::ProgramRun install = test::run_program(
+        "cd " + modules.string() + " && flock lock sh -c 'test -e complete || { " +
+        "timeout 60 npm install --no-save --no-audit --prefix . " + kModules + " && touch complete; }'");
+    if (install.exit_code != 0)
+      GTEST_SKIP() << "the public writer's modules are not to be had: " << install.output;
     Image image;
     image.resize(16, 8, PixelFormat::kGrey8);
     for (std::byte& pixel : image.pixels) pixel = std::byte{77};

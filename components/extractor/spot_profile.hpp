@@ -68,11 +68,11 @@ struct SpotProfile {
     const int all = padded(pixels);
     Floats edge = Floats{0, 1, 2, 3, 4, 5, 6, 7} - (0.5F + place);
     Ints column = Ints{0, 1, 2, 3, 4, 5, 6, 7};
-    Edge lower(edge * per_sigma);
+    PixelEdge lower(edge * per_sigma);
     for (int k = 0; k < all; k += 8, column += 8) {
       edge += 8.0F;
       // The last pixel is padding: no upper edge is asked of it.
-      const Edge next = k + 8 < all ? Edge(edge * per_sigma) : lower;
+      const PixelEdge next = k + 8 < all ? PixelEdge(edge * per_sigma) : lower;
       const auto i = static_cast<std::size_t>(k);
       const Ints inside = column < pixels;
       put(&share[i], following(lower.below, next.below) - lower.below, inside);
@@ -92,8 +92,8 @@ struct SpotProfile {
     for (int k = 0; k < padded(pixels); k += 8, column += 8, middle += 8.0F) {
       const auto i = static_cast<std::size_t>(k);
       const Ints inside = column < pixels;
-      const Edge lower((middle - 0.5F * aperture) * per_sigma);
-      const Edge upper((middle + 0.5F * aperture) * per_sigma);
+      const PixelEdge lower((middle - 0.5F * aperture) * per_sigma);
+      const PixelEdge upper((middle + 0.5F * aperture) * per_sigma);
       put(&share[i], (upper.below - lower.below) * scale, inside);
       put(&by_place[i], (lower.density - upper.density) * (per_sigma * scale), inside);
       put(&by_sigma[i], (lower.moment - upper.moment) * (per_sigma * scale), inside);
@@ -101,7 +101,6 @@ struct SpotProfile {
   }
 
  private:
-  using Edge = PixelEdge;
   // One lane further along a row of which two vectors are given.
   [[gnu::always_inline]] static Floats following(const Floats& here, const Floats& next) {
     return __builtin_shufflevector(here, next, 1, 2, 3, 4, 5, 6, 7, 8);

@@ -110,6 +110,7 @@ void TargetPatches::add_triple(const TargetBody& body, std::span<const std::uint
     const bool on_face = triple.front != 0 && parallel(body.targets[l].normal, body.targets[i].normal) &&
                          std::abs(d.dot(n)) < kThinnest * std::sqrt(area);
     if ((flat_ || on_face) && in_reach) planar_.push_back(fourth);
+    if (flat_) continue;  // all of them lie in the plane
     fourths_.push_back(fourth);
     ++triple.count;
   }

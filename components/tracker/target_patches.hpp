@@ -79,7 +79,7 @@ class TargetPatches {
   double tilt_factor_;
   bool flat_ = false;
   std::vector<Triple> triples_;
-  std::vector<Fourth> fourths_;  ///< by triple
+  std::vector<Fourth> fourths_;  ///< by triple; none of a card
   std::vector<Fourth> planar_;   ///< those in the plane of their triple, by α
 };
 

@@ -15,8 +15,7 @@ namespace {
 std::uint32_t queue_of(const v4l2::Device& device) {
   v4l2_capability capability{};
   if (device.control(VIDIOC_QUERYCAP, &capability) != 0) return 0;
-  const std::uint32_t can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
-                                                                                  : capability.capabilities;
+  const std::uint32_t can = v4l2::abilities(capability);
   if ((can & V4L2_CAP_STREAMING) == 0) return 0;
   if ((can & (V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_VIDEO_M2M)) != 0) return V4L2_BUF_TYPE_VIDEO_CAPTURE;
   return (can & V4L2_CAP_VIDEO_OUTPUT) != 0 ? V4L2_BUF_TYPE_VIDEO_OUTPUT : 0;

@@ -135,11 +135,15 @@ int Device::control(unsigned long request, void* argument) const noexcept {
   }
 }
 
+std::uint32_t abilities(const v4l2_capability& capability) {
+  return (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
+                                                               : capability.capabilities;
+}
+
 bool captures(const Device& device, v4l2_capability& capability) {
   capability = {};
   if (device.control(VIDIOC_QUERYCAP, &capability) != 0) return false;
-  const std::uint32_t can = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0 ? capability.device_caps
-                                                                                  : capability.capabilities;
+  const std::uint32_t can = abilities(capability);
   return (can & V4L2_CAP_VIDEO_CAPTURE) != 0 && (can & V4L2_CAP_STREAMING) != 0;
 }
 

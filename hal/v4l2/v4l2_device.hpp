@@ -61,6 +61,8 @@ class Device {
   int file_ = -1;
 };
 
+/// V4L2_CAP_... of this node, where the driver tells them apart from those of all its nodes.
+std::uint32_t abilities(const v4l2_capability& capability);
 /// True for a device that captures into one plane by streaming.
 bool captures(const Device& device, v4l2_capability& capability);
 /// Every control that can be set or read as a number, buttons included.

@@ -57,14 +57,16 @@ wait $CAPTURE
 grep -qE '[1-9][0-9]* damaged|[1-9] times gone' /tmp/said
 check $? "wrong buffers counted: $(grep frames /tmp/said | head -1)"
 
-D=/sys/bus/platform/drivers/vivid
+unplug_and_plug_in() { # PREFIX: beside the capture that runs
+  echo vivid.0 > /sys/bus/platform/drivers/vivid/unbind
+  sleep 2
+  echo vivid.0 > /sys/bus/platform/drivers/vivid/bind
+  wait $CAPTURE
+  check $(($? == 1 ? 0 : 1)) "$1unplugged and plugged in again: $(grep frames /tmp/said | head -1)"
+  says 'cam0: gone or silent' && says 'cam0: delivers again' && says ' 1 times gone'
+  check $? "named and counted"
+}
 capture_beside 150
-echo vivid.0 > $D/unbind
-sleep 2
-echo vivid.0 > $D/bind
-wait $CAPTURE
-check $(($? == 1 ? 0 : 1)) "unplugged and plugged in again: $(grep frames /tmp/said | head -1)"
-says 'cam0: gone or silent' && says 'cam0: delivers again' && says ' 1 times gone'
-check $? "named and counted"
+unplug_and_plug_in ""
 source scripts/hil/lent_memory.sh
 exit $failed

@@ -1,6 +1,6 @@
 // omma-bench acquire: from a cold start to the first attitude and pose, dots in, everything out: tracker
 // (identification of stars and targets, pairing), attitude and pose, as the flight program runs them. Time of
-// the frame set, solved, wrong, error over bound, NEES, iterations, allocations. Option: --trials N (500).
+// the frame set, solved, wrong, error over bound, NEES, iterations, allocations.
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +17,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/cold_frame.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/rig_problem.hpp"
 #include "tests/paths.hpp"
 
@@ -173,8 +174,10 @@ int run(const char* name, const Rig& rig, const ColdFrameOptions& options, int t
 
 }  // namespace
 
-int bench_acquire(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 500);
+int bench_acquire(Options& options) {
+  int trials = 500;
+  options.add("--trials", trials, "cold starts of a row");
+  options.read();
   Rig three = equidistant_rig(3, 122);
   for (RigCamera& camera : three.cameras)
     camera.rig_from_camera.translation = camera.rig_from_camera.rotation * Eigen::Vector3d(0, 0, 0.1);

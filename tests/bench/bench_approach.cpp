@@ -1,8 +1,6 @@
 // omma-bench approach: a body comes from a light among the stars to its fiducials, rendered and flown whole,
 // from other directions of the sky, with other speeds, turns of the rig, noise, and another error of what the
-// mission believes of its light. The constants of the photometry were chosen on none of them. Options:
-// --trials N (20; each renders and flies some 230 frames), --from K (0: those before are drawn, not flown),
-// --seed K (1).
+// mission believes of its light. The constants of the photometry were chosen on none of them.
 #include <cstdio>
 #include <numbers>
 #include <random>
@@ -11,6 +9,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/flown_approach.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -51,10 +50,15 @@ sim::Scenario another_approach(std::mt19937_64& random) {
 
 }  // namespace
 
-int bench_approach(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 20);
-  const int from = option(argc, argv, "--from", 0);
-  std::mt19937_64 random(static_cast<std::uint64_t>(option(argc, argv, "--seed", 1)));
+int bench_approach(Options& options) {
+  int trials = 20;
+  int from = 0;
+  int seed = 1;
+  options.add("--trials", trials, "approaches; each renders and flies some 230 frame sets");
+  options.add("--from", from, "the first that is flown; those before it are only drawn", 0);
+  options.add("--seed", seed, "of the approaches drawn", 0);
+  options.read();
+  std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   std::normal_distribution<double> gauss;
   std::map<RangeMode, OfOneMode> all;
   int flown_trials = 0, handed_over = 0, wrong = 0, steps_back = 0;

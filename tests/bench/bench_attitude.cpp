@@ -1,6 +1,5 @@
 // Attitude from paired stars: error over the Cramér–Rao bound, NEES, time, iterations. Three 122° cameras on
 // the faces of a tetrahedron, 30 directions spread over what they see, 0.1 px noise of a 1024 px image.
-// Option: --trials N (default 2000).
 #include <Eigen/LU>
 #include <cstdio>
 #include <numbers>
@@ -10,6 +9,7 @@
 #include "tests/bench/bench_attitude_methods.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/repeatability.hpp"
 #include "tests/bench/rig_problem.hpp"
 #include "tests/random_direction.hpp"
@@ -92,8 +92,10 @@ void print_attitude_repeats() {
 
 }  // namespace
 
-int bench_attitude(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 2000);
+int bench_attitude(Options& options) {
+  int trials = 2000;
+  options.add("--trials", trials, "attitudes of a row");
+  options.read();
   std::printf("%-34s %7s %7s %7s %9s %9s %7s %6s %4s %6s\n", "attitude", "med us", "p99 us", "max us",
               "rms \"", "rms/bound", "NEES", "iter", "max", "fail");
   const Case cases[] = {{"30 stars, start 0.1 deg off", 30, 0.1},

@@ -17,6 +17,7 @@
 #include "tests/bench/attitude_problem.hpp"
 #include "tests/bench/bench_attitude_methods.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {

@@ -1,5 +1,5 @@
 // omma-bench axes: the axes of a swung platform and the shims between them, all of the pose at once against
-// the dissertation's circle, with NEES. Options: --trials N, --samples N of each axis, --arc DEG.
+// the dissertation's circle, with NEES.
 #include <cmath>
 #include <cstdio>
 
@@ -7,6 +7,7 @@
 #include "ground/report/statistics.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/swung_platform.hpp"
 
 namespace omma {
@@ -36,11 +37,16 @@ ground::NamedAxis exactly(const ground::Axis& axis) {
 
 }  // namespace
 
-int bench_axes(int argc, char** argv) {
-  const int trials = std::max(1, option(argc, argv, "--trials", 100));
+int bench_axes(Options& options) {
+  int trials = 100;
+  int arc = 57;
   Swing swing;
-  swing.samples = std::max(6, option(argc, argv, "--samples", 60));
-  swing.arc = option(argc, argv, "--arc", 57) * M_PI / 180;
+  swing.samples = 60;
+  options.add("--trials", trials, "platforms");
+  options.add("--samples", swing.samples, "poses of each axis", 6);
+  options.add("--arc", arc, "that each axis swings through [degrees]");
+  options.read();
+  swing.arc = arc * M_PI / 180;
   Errors whole, circle;
   std::vector<double> nees;
   double shim_squares = 0;

@@ -1,6 +1,5 @@
 // omma-bench blink: lights told apart by their blinking codes: identities right, wrong and open against the
 // number of frames seen, time a frame.
-// Options: --trials N (200).
 #include <cstdio>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/blink_problem.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -59,8 +59,10 @@ void run(const Case& c, const BlinkDecoder& decoder, int frames, int trials) {
 
 }  // namespace
 
-int bench_blink(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 200);
+int bench_blink(Options& options) {
+  int trials = 200;
+  options.add("--trials", trials, "scenes of a row");
+  options.read();
   const BlinkDecoder decoder(make_blink_codes(16, 20, 4));
   std::printf("%zu codes of %d bits\n", decoder.codes().words.size(), decoder.codes().length);
   std::printf("%-44s %6s %9s %9s %9s %9s %9s\n", "lights lit in the last frame", "frames", "right", "wrong",

@@ -1,6 +1,5 @@
 // omma-bench blocked: a telemetry sink does not return for one second in the middle of a run. How late do the
-// rate groups begin in that second, beside the seconds around it? Options: --priority P (0: ordinary
-// threads).
+// rate groups begin in that second, beside the seconds around it?
 #include <array>
 #include <atomic>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "fsw/kernel/scheduler.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/components/telemetry/telemetry_source.hpp"
 
 namespace omma {
@@ -74,8 +74,10 @@ class Lateness final : public ScheduleObserver {
 
 }  // namespace
 
-int bench_blocked(int argc, char** argv) {
-  const int priority = option(argc, argv, "--priority", 80);
+int bench_blocked(Options& options) {
+  int priority = 80;
+  options.add("--priority", priority, "SCHED_FIFO; 0: ordinary threads", 0);
+  options.read();
   std::atomic<int> phase{0};
   FrameSource frame;
   Idle idle;

@@ -1,6 +1,5 @@
 // omma-bench capture: three simulated cameras of the dissertation's sizes, 1.54 million pixels a set,
-// captured to disk as `omma capture` does it, at rising rates until something is lost. Options: --seconds N
-// (each rate), --rate HZ (that one alone), --folder PATH (where to; its disk is what is measured).
+// captured to disk as `omma capture` does it, at rising rates until something is lost.
 #include <unistd.h>
 
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/fed_camera.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -62,13 +62,15 @@ Run capture(const fs::path& folder, double rate_hz, int seconds) {
 
 }  // namespace
 
-int bench_capture(int argc, char** argv) {
-  const int seconds = option(argc, argv, "--seconds", 10);
-  const int only = option(argc, argv, "--rate", 0);
-  fs::path folder = fs::temp_directory_path();
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], "--folder") == 0) folder = argv[i + 1];
-  folder /= "omma-bench-capture-" + std::to_string(::getpid());
+int bench_capture(Options& options) {
+  int seconds = 10;
+  int only = 0;
+  std::string disk = fs::temp_directory_path();
+  options.add("--seconds", seconds, "of each rate");
+  options.add("--rate", only, "that one alone [Hz]; 0: rising ones", 0);
+  options.add("--folder", disk, "where to; its disk is what is measured");
+  options.read();
+  const fs::path folder = fs::path(disk) / ("omma-bench-capture-" + std::to_string(::getpid()));
   std::printf(
       "Three cameras, 1.54 million pixels a set (768 x 576 of 12 bits, 1024 x 768, 640 x 480), to %s\n",
       folder.parent_path().c_str());

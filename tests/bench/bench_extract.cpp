@@ -1,13 +1,13 @@
 // The extractor on images whose truth is known: accuracy against the Cramér–Rao bound, honesty of its
 // covariances, recall, false dots, and time beside a memcpy of the same image.
-// Options: --dots N of each row of accuracy (default 10000; 0: times only), --repeats N of each time (301),
-// --frames FOLDER of other frames.
 #include <cstdio>
 #include <memory>
 
 #include "components/extractor/dot_extractor.hpp"
+#include "tests/bench/bench_extract_frames.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/photograph_stars.hpp"
 #include "tests/bench/spot_scene.hpp"
 #include "tests/paths.hpp"
@@ -266,11 +266,20 @@ void real_photograph() {
 
 }  // namespace
 
-int bench_extract(int argc, char** argv) {
-  if (const char* frames = text_option(argc, argv, "--frames", nullptr))
-    return bench_extract_frames(frames, argc, argv);
-  const int repeats = option(argc, argv, "--repeats", 301);
-  const int dots = option(argc, argv, "--dots", 10000);
+int bench_extract(Options& options) {
+  int repeats = 301;
+  int dots = 10000;
+  int only = 0;
+  RenderedFrames rendered;
+  options.add("--repeats", repeats, "of each time");
+  options.add("--dots", dots, "of each row of accuracy; 0: times alone", 0);
+  options.add("--sensor", only, "one row of accuracy only, by its number; 0: all", 0);
+  options.add("--frames", rendered.folder, "rendered frames with truth, instead of all else");
+  options.add("--mission", rendered.mission, "with --frames: how they are flown");
+  options.add("--every", rendered.every, "with --frames: one frame of so many");
+  options.add("--show", rendered.shown, "with --frames: the frame whose missed spots are listed", -1);
+  options.read();
+  if (!rendered.folder.empty()) return bench_extract_frames(rendered);
   std::printf("1024 x 768, 8 bits, one core\n  %-22s %8s %8s %9s %7s\n", "image", "med ms", "p95 ms",
               "memcpy ms", "ratio");
   time_of("empty", 0, 1.0, repeats);
@@ -283,7 +292,6 @@ int bench_extract(int argc, char** argv) {
   real_photograph();
   if (dots == 0) return 0;
   trails(std::min(dots, 2000));
-  const int only = option(argc, argv, "--sensor", 0);
   for (int k = 1; const Kind& kind : kKinds)
     if (const int number = k++; only == 0 || only == number) accuracy(kind, dots);
   return 0;

@@ -10,7 +10,7 @@
 #include "fsw/app/mission.hpp"
 #include "ground/report/truth.hpp"
 #include "hal/recorded/image_file.hpp"
-#include "tests/bench/benches.hpp"
+#include "tests/bench/bench_extract_frames.hpp"
 #include "tests/bench/measure.hpp"
 
 namespace omma {
@@ -27,17 +27,15 @@ const char* snr_class(double snr) {
 
 }  // namespace
 
-int bench_extract_frames(const char* folder, int argc, char** argv) {
-  const std::filesystem::path frames = folder;
-  const Mission mission = read_mission(text_option(argc, argv, "--mission", "config/demo.toml"));
+int bench_extract_frames(const RenderedFrames& rendered) {
+  const std::filesystem::path frames = rendered.folder;
+  const Mission mission = read_mission(rendered.mission);
   const auto truth = ground::read_truth(frames / "truth.jsonl", static_cast<int>(mission.cameras.size()));
-  const int every = option(argc, argv, "--every", 6);
-  const int shown = option(argc, argv, "--show", -1);  // frame whose missed spots are listed
   std::map<std::string, Row> rows;
   int false_dots = 0, images = 0;
   std::vector<double> times;
   for (const ground::TruthFrame& frame : truth) {
-    if (frame.frame % static_cast<std::uint64_t>(every) != 0) continue;
+    if (frame.frame % static_cast<std::uint64_t>(rendered.every) != 0) continue;
     for (std::size_t c = 0; c < mission.cameras.size(); ++c) {
       const std::string name(mission.rig.cameras[c].name.view());
       char file[64];
@@ -89,7 +87,7 @@ int bench_extract_frames(const char* folder, int argc, char** argv) {
           row->squared_bound += spot.information.inverse().trace();
           row->nees += error.dot(dot.covariance.inverse() * error);
         }
-        if (shown == static_cast<int>(frame.frame) && target) {
+        if (rendered.shown == static_cast<int>(frame.frame) && target) {
           std::printf("%s %s snr %.1f at %.2f %.2f next %.1f: ", name.c_str(), spot.id.c_str(), spot.snr,
                       spot.pixel.x(), spot.pixel.y(), next);
           if (!found) {

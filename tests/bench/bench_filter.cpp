@@ -1,12 +1,12 @@
-// omma-bench filter: the attitude filter over many random flights: error against the single frame set's,
-// NEES of attitude, of rate (with a gyro: of its bias) and of both, attitudes refused, time a frame set.
-// Options: --flights N (200), --frames N (400).
+// omma-bench filter: the attitude filter over many random flights: error against the single frame set's, NEES
+// of attitude, of rate (with a gyro: of its bias) and of both, attitudes refused, time a frame set.
 #include <Eigen/LU>
 #include <cstdio>
 #include <numbers>
 
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/turning_rig.hpp"
 
 namespace omma {
@@ -77,9 +77,12 @@ void run(const Case& c, int flights, int frames) {
 
 }  // namespace
 
-int bench_filter(int argc, char** argv) {
-  const int flights = option(argc, argv, "--flights", 200);
-  const int frames = option(argc, argv, "--frames", 400);
+int bench_filter(Options& options) {
+  int flights = 200;
+  int frames = 400;
+  options.add("--flights", flights, "of a row");
+  options.add("--frames", frames, "frame sets of a flight");
+  options.read();
   std::printf("%-46s %8s %8s %8s %10s %8s %8s %8s %8s %8s\n", "filter", "med us", "single\"", "filter\"",
               "rate rad/s", "NEES att", "NEES rt", "NEES all", "refused", "again");
   TurningRigOptions agile;

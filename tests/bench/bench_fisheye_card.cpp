@@ -10,6 +10,7 @@
 #include "components/estimation/pose_search.hpp"
 #include "tests/bench/fisheye_card.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/rig_problem.hpp"
 
 namespace omma {

@@ -1,7 +1,5 @@
-// Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes. `--trials N`
-// (200; 10000 for the full table), `--false-skies N` skies of false dots alone (as many; 100000), `--row K`
-// one row only (19: the false skies), `--limit N` hypotheses (the default is the flight's). A wrong answer
-// makes the exit code 1.
+// Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes, and false
+// answers in skies of false dots alone. A wrong answer makes the exit code 1.
 #include <cstdio>
 #include <memory>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "fsw/kernel/real_time_scope.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/sky_problem.hpp"
 
 namespace omma {
@@ -105,8 +104,17 @@ int run_nothing_there(int trials) {
 
 }  // namespace
 
-int bench_identify(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 200);
+int bench_identify(Options& options) {
+  IdentificationParameters parameters;
+  int trials = 200;
+  int row = 0;
+  int false_skies = 0;
+  auto limit = static_cast<int>(parameters.hypothesis_limit);
+  options.add("--trials", trials, "attitudes of a row; 10000 for the full table");
+  options.add("--row", row, "that one alone, by its number; 0: all", 0);
+  options.add("--false-skies", false_skies, "skies of false dots alone; 0: as many as trials", 0);
+  options.add("--limit", limit, "hypotheses tried of a sky");
+  options.read();
   std::printf("%-46s %6s %5s %5s %8s %6s %8s %8s %8s %8s %8s\n", "identify", "trials", "dots", "least",
               "solved%", "wrong", "cpu us", "p99", "max", "hyp med", "hyp max");
   const Rig three = equidistant_rig(3, 122);
@@ -152,16 +160,13 @@ int bench_identify(int argc, char** argv) {
        0.25},
       {"3 x 122 deg, 80 % of the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.8}, 0.25},
   };
-  IdentificationParameters parameters;
-  parameters.hypothesis_limit = static_cast<std::uint32_t>(
-      option(argc, argv, "--limit", static_cast<int>(parameters.hypothesis_limit)));
-  const int row = option(argc, argv, "--row", 0);
+  parameters.hypothesis_limit = static_cast<std::uint32_t>(limit);
   int number = 0;
   int wrong = 0;
   for (const Case& c : cases) {
     if (++number == row || row == 0) wrong += run(c, trials, parameters);
   }
-  if (row == 0 || row > number) wrong += run_nothing_there(option(argc, argv, "--false-skies", trials));
+  if (row == 0 || row > number) wrong += run_nothing_there(false_skies > 0 ? false_skies : trials);
   const std::uint64_t allocations = memory_guard::violations().total();
   std::printf("allocations while identifying: %llu%s\n", static_cast<unsigned long long>(allocations),
               memory_guard::installed() ? "" : " (not watched)");

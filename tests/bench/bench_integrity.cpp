@@ -2,7 +2,6 @@
 // and poses without a fault, with a wrong dot, with a displaced camera and with calibrations that are wrong.
 // The risk is set to 1 % and the fault's prior to 1, so that a trial means something: in each row at most 1 %
 // of the errors, axis by axis, may be beyond their protection level.
-// Options: --trials N (2000).
 #include <cstdio>
 #include <numbers>
 
@@ -11,6 +10,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/integrity_problem.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -139,8 +139,10 @@ void run_card(int targets, const Fault& fault, int trials) {
 
 }  // namespace
 
-int bench_integrity(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 2000);
+int bench_integrity(Options& options) {
+  int trials = 2000;
+  options.add("--trials", trials, "problems of a row");
+  options.read();
   std::printf("%-22s %-30s %8s %8s %9s %9s %12s %8s %8s %8s\n", "problem", "fault", "answers", "beyond",
               "alerts", "no level", "NEES (due)", "level/σ", "med us", "p99 us");
   const Fault faults[] = {{"none"},

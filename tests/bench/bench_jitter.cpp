@@ -1,6 +1,6 @@
 // omma-bench jitter: how late our scheduler's steps begin against how late a bare clock_nanosleep loop wakes,
 // both in one run, half a period apart, at 1 kHz and 200 Hz, idle and beside busy threads; then the phase
-// after a stall. Options: --seconds N (each case), --priority P (SCHED_FIFO for both, 0: ordinary).
+// after a stall.
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +11,7 @@
 #include "fsw/kernel/scheduler.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -159,10 +160,14 @@ void stall(int priority) {
 
 }  // namespace
 
-int bench_jitter(int argc, char** argv) {
-  const int seconds = option(argc, argv, "--seconds", 11);
-  const int blocks = option(argc, argv, "--blocks", 11);
-  const int priority = option(argc, argv, "--priority", 80);
+int bench_jitter(Options& options) {
+  int seconds = 11;
+  int blocks = 11;
+  int priority = 80;
+  options.add("--seconds", seconds, "of each case");
+  options.add("--blocks", blocks, "that a case is cut into; the median over them is printed");
+  options.add("--priority", priority, "SCHED_FIFO for both; 0: ordinary threads", 0);
+  options.read();
   for (const std::string& refusal : make_thread_real_time("this thread", 0))
     std::printf("%s\n", refusal.c_str());
   {

@@ -10,6 +10,7 @@
 #include "components/geometry/lens.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -93,8 +94,10 @@ void run(const Case& c, int batches, double& sum) {
 
 }  // namespace
 
-int bench_lens(int argc, char** argv) {
-  const int batches = option(argc, argv, "--batches", 501);
+int bench_lens(Options& options) {
+  int batches = 501;
+  options.add("--batches", batches, "of 1000 calls; the median is printed");
+  options.read();
   std::printf("ns per call, median of %d batches of %zu (ratio to sqrt and atan2 alone)\n", batches, kCalls);
   std::printf("%-22s %12s  %12s  %12s  %12s   %5s   %s\n", "lens", "project", "+ Jacobian", "bearing",
               "+ Jacobian", "atan2", "round trip [px]");

@@ -1,5 +1,5 @@
-// `omma-bench photographs [--data FOLDER] [--repeats N]`: `omma solve`'s solver on every photograph with
-// known truth: solved or why not, error about each axis, stars, time. A wrong answer makes the exit code 1.
+// `omma-bench photographs`: `omma solve`'s solver on every photograph with known truth: solved or why not,
+// error about each axis, stars, time. A wrong answer makes the exit code 1.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -8,6 +8,7 @@
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/photographs.hpp"
 #include "tests/paths.hpp"
 
@@ -77,9 +78,12 @@ Count run(const Photograph& photograph, int repeats) {
 
 }  // namespace
 
-int bench_photographs(int argc, char** argv) {
-  const std::string data = text_option(argc, argv, "--data", OMMA_SHARED_DATA "/data");
-  const int repeats = option(argc, argv, "--repeats", 3);
+int bench_photographs(Options& options) {
+  std::string data = OMMA_SHARED_DATA "/data";
+  int repeats = 3;
+  options.add("--data", data, "the shared data folder");
+  options.add("--repeats", repeats, "of each time; the median is printed");
+  options.read();
   std::printf("%-42s %4s %26s %24s %20s %6s %7s %6s\n", "", "", "median ms of", "error, arcsec, about",
               "1-sigma, arcsec", "stars", "rms", "false");
   std::printf("%-42s %4s %8s %8s %8s %7s %7s %8s %6s %6s %6s %6s %7s %6s\n", "photograph", "dots", "extract",

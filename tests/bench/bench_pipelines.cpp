@@ -1,6 +1,5 @@
 // The extraction pipelines side by side on the same rendered frames with truth: star frames, frames with the
 // card, frames with the Moon.
-// Options: --frames FOLDER, --mission FILE, --every N frame sets (default 20), --picture FILE to draw into.
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "hal/recorded/image_file.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/pipeline_picture.hpp"
 
 namespace omma {
@@ -115,11 +115,20 @@ bool has(const std::vector<ground::TruthSpot>& spots, ground::TruthSpot::Kind ki
 
 }  // namespace
 
-int bench_pipelines(int argc, char** argv) {
-  const std::filesystem::path folder = text_option(argc, argv, "--frames", "build/demo/frames");
-  const Mission mission = read_mission(text_option(argc, argv, "--mission", "config/demo.toml"));
+int bench_pipelines(Options& options) {
+  std::string frames = "build/demo/frames";
+  std::string mission_file = "config/demo.toml";
+  std::string picture_file;
+  int one_of = 20;
+  options.add("--frames", frames, "rendered frames with truth");
+  options.add("--mission", mission_file, "how they are flown");
+  options.add("--every", one_of, "one frame set of so many");
+  options.add("--picture", picture_file, "PNG to draw the three kinds of frame into");
+  options.read();
+  const std::filesystem::path folder = frames;
+  const Mission mission = read_mission(mission_file);
   const auto truth = ground::read_truth(folder / "truth.jsonl", static_cast<int>(mission.cameras.size()));
-  const auto every = static_cast<std::uint64_t>(std::max(1, option(argc, argv, "--every", 20)));
+  const auto every = static_cast<std::uint64_t>(one_of);
   Algorithm algorithms[] = {{"omma", ExtractorAlgorithm::kMatched},
                             {"MLAS (4)", ExtractorAlgorithm::kMlas},
                             {"small target (5)", ExtractorAlgorithm::kSmallTarget},
@@ -128,7 +137,6 @@ int bench_pipelines(int argc, char** argv) {
   using Kind = ground::TruthSpot::Kind;
   constexpr Kind kShown[] = {Kind::kStar, Kind::kTarget, Kind::kMoon};
   Row rows[3][4];
-  const char* picture_file = text_option(argc, argv, "--picture", nullptr);
   PipelinePicture picture(3, 4);
   bool is_shown[3] = {};
   for (const ground::TruthFrame& at : truth) {
@@ -155,7 +163,7 @@ int bench_pipelines(int argc, char** argv) {
                       std::string(kinds[k]) + ": " + algorithms[a].name(),
                       {}};
           judge(frame, algorithms[a], rows[k][a], panel.places);
-          if (picture_file != nullptr && !is_shown[k]) picture.put(panel, view, middle_of(frame, kShown[k]));
+          if (!picture_file.empty() && !is_shown[k]) picture.put(panel, view, middle_of(frame, kShown[k]));
         }
         is_shown[k] = true;
       }
@@ -175,7 +183,7 @@ int bench_pipelines(int argc, char** argv) {
                   row.found == 0 ? 0 : row.nees / row.found, 1e-3 * quantile(row.times, 0.5));
     }
   }
-  if (picture_file != nullptr) picture.write(picture_file);
+  if (!picture_file.empty()) picture.write(picture_file);
   return 0;
 }
 

@@ -1,5 +1,5 @@
 // omma-bench ports: what it costs to move a message: within a rate group, across rate groups by triple buffer
-// and by queue, and by a mutex for comparison. Options: --rounds N.
+// and by queue, and by a mutex for comparison.
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "fsw/kernel/real_time_scope.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -156,8 +157,10 @@ TransferCost transfer_cost(int rounds) {
 
 }  // namespace
 
-int bench_ports(int argc, char** argv) {
-  const int rounds = option(argc, argv, "--rounds", 1'000'000);
+int bench_ports(Options& options) {
+  int rounds = 1'000'000;
+  options.add("--rounds", rounds, "messages of each kind");
+  options.read();
   Out<Message> out;
   In<Message> in;
   in.bind(out);

@@ -14,6 +14,7 @@
 #include "tests/bench/bench_pose_minima.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/repeatability.hpp"
 #include "tests/bench/rig_problem.hpp"
 
@@ -178,13 +179,19 @@ void repeats() {
 
 }  // namespace
 
-int bench_pose(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 400);
-  if (has_option(argc, argv, "--methods")) {
+int bench_pose(Options& options) {
+  int trials = 400;
+  bool methods = false;
+  bool minima = false;
+  options.add("--trials", trials, "problems of a row");
+  options.add("--methods", methods, "the reference methods side by side with ours, instead");
+  options.add("--minima", minima, "cold starts beside the global minimum of the same cost, instead");
+  options.read();
+  if (methods) {
     compare_pose_methods(trials);
     return 0;
   }
-  if (has_option(argc, argv, "--minima")) {
+  if (minima) {
     bench_pose_minima(trials);
     return 0;
   }

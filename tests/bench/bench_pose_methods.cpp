@@ -16,6 +16,7 @@
 #include "ground/methods/ranges_pose.hpp"
 #include "ground/methods/three_point_alone.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/rig_problem.hpp"
 
 namespace omma {

@@ -1,6 +1,6 @@
 // omma-bench real_sky: the simulator beside a real photograph (Longyearbyen, from the shared data folder):
 // with zero point, air, width of the spots, noise and background taken from the photograph, are as many stars
-// found, as bright, and as wide? Options: --data FOLDER.
+// found, as bright, and as wide?
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +15,7 @@
 #include "sim/ground.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/photographs.hpp"
 #include "tests/paths.hpp"
 
@@ -166,8 +167,12 @@ void find_gain(const BackgroundMap& map, const Lens& lens, sim::Sensor& sensor) 
 
 }  // namespace
 
-int bench_real_sky(int argc, char** argv) {
-  const std::string data = text_option(argc, argv, "--data", OMMA_SHARED_DATA "/data");
+int bench_real_sky(Options& options) {
+  std::string data = OMMA_SHARED_DATA "/data";
+  int fill_percent = 100;
+  options.add("--data", data, "the shared data folder");
+  options.add("--fill-percent", fill_percent, "of a pixel's area that sees light");
+  options.read();
   const auto list = photographs(data, PhotographGroup::kLongyearbyen);
   if (list.empty()) {
     std::printf("no photograph in %s\n", data.c_str());
@@ -195,7 +200,7 @@ int bench_real_sky(int argc, char** argv) {
   map.build(image.view(), false);
   find_gain(map, lens, sensor);
   sensor.full_well = 1e9;
-  sensor.fill_factor = 0.01 * option(argc, argv, "--fill-percent", 100);
+  sensor.fill_factor = 0.01 * fill_percent;
   sensor.zero_point = sensor.gain * std::pow(10, -0.4 * seen.terms[0]) / sensor.fill_factor;
   sensor.psf_sigma = median_width(real, stars, 0, kRim);
   scenario.rig_motion = sim::Motion::constant(

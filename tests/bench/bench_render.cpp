@@ -1,6 +1,6 @@
 // omma-bench render: frame sets a second that the simulator draws and reads out, files not written: camera by
 // camera on one thread, and whole sets on one and on two workers, by the clock on the wall and by processor
-// time. Options: --scenario FILE (default: the demo's, three cameras), --frames N.
+// time.
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -15,6 +15,7 @@
 #include "sim/scenario_file.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -83,11 +84,13 @@ void print_workers(const sim::Scenario& scenario, std::span<const SkyStar> stars
 
 }  // namespace
 
-int bench_render(int argc, char** argv) {
-  const std::string file =
-      text_option(argc, argv, "--scenario", OMMA_SOURCE_DIR "/config/demo_scenario.toml");
+int bench_render(Options& options) {
+  std::string file = OMMA_SOURCE_DIR "/config/demo_scenario.toml";
+  int frames = 40;
+  options.add("--scenario", file, "what is drawn");
+  options.add("--frames", frames, "frame sets");
+  options.read();
   const sim::Scenario scenario = sim::read_scenario_file(file);
-  const int frames = std::max(1, option(argc, argv, "--frames", 40));
   const std::vector<SkyStar> stars = sim::sky_of(scenario);
   std::printf("%s: %zu cameras, %zu stars to V %.1f, %d frame sets, one thread\n", scenario.name.c_str(),
               scenario.rig.cameras.size(), stars.size(), scenario.faintest, frames);

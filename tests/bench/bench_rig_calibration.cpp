@@ -1,6 +1,5 @@
 // omma-bench rig_calibration: extrinsic errors of a rig calibrated on cards, one adjustment of all images
-// against one image a camera, and NEES. Options: --seed N (of the first trial), --rig FILE (default: the
-// dissertation's), --trials N, --sets N, --noise-mpx N (deviation of a dot per axis, thousandths of a pixel).
+// against one image a camera, and NEES.
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include "ground/report/statistics.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/room_of_cards.hpp"
 #include "tests/paths.hpp"
 
@@ -49,12 +49,19 @@ struct Errors {
 
 }  // namespace
 
-int bench_rig_calibration(int argc, char** argv) {
-  const std::string file = text_option(argc, argv, "--rig", OMMA_SOURCE_DIR "/config/rigs/dissertation.toml");
-  const int trials = std::max(1, option(argc, argv, "--trials", 40));
-  const int sets = std::max(2, option(argc, argv, "--sets", 20));
-  const int seed = option(argc, argv, "--seed", 0);
-  const double noise = 1e-3 * option(argc, argv, "--noise-mpx", 100);
+int bench_rig_calibration(Options& options) {
+  std::string file = OMMA_SOURCE_DIR "/config/rigs/dissertation.toml";
+  int trials = 40;
+  int sets = 20;
+  int seed = 0;
+  int noise_mpx = 100;
+  options.add("--rig", file, "that is calibrated");
+  options.add("--trials", trials, "rooms of cards");
+  options.add("--sets", sets, "frame sets of a room", 2);
+  options.add("--seed", seed, "of the first trial", 0);
+  options.add("--noise-mpx", noise_mpx, "deviation of a dot per axis [thousandths of a pixel]");
+  options.read();
+  const double noise = 1e-3 * noise_mpx;
   const Rig rig = read_rig_file(file);
   Errors joint, one;
   std::vector<double> nees;   // of each camera

@@ -1,5 +1,5 @@
 // omma-bench steps: what the scheduler adds to a step: an empty component's beat against a bare virtual call
-// and against the clock readings it takes; and what the flight recorder costs. Options: --ticks N.
+// and against the clock readings it takes; and what the flight recorder costs.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -11,6 +11,7 @@
 #include "fsw/services/flight_recorder.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 
 namespace omma {
 namespace {
@@ -60,8 +61,11 @@ double call_ns(std::uint64_t rounds, Call&& call) {
 
 }  // namespace
 
-int bench_steps(int argc, char** argv) {
-  const auto ticks = static_cast<std::uint64_t>(option(argc, argv, "--ticks", 100'000));
+int bench_steps(Options& options) {
+  int beats = 100'000;
+  options.add("--ticks", beats, "of each kind");
+  options.read();
+  const auto ticks = static_cast<std::uint64_t>(beats);
   Empty empty("empty");
   Component* component = &empty;
   asm volatile("" : "+r"(component));

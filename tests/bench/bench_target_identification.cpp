@@ -1,6 +1,5 @@
 // Target identification: share solved, wrong and left open, time, on clouds of dots with clutter and hidden
 // targets (card_problem.hpp).
-// Option: --trials N a row (default 200).
 #include <Eigen/LU>
 #include <cstdio>
 
@@ -8,6 +7,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/card_problem.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/bench/rig_problem.hpp"
 
 namespace omma {
@@ -76,51 +76,54 @@ void table(const char* title, CardProblemOptions options, int trials) {
 
 /// Clouds that do not hold the body: as many dots as its targets and as much clutter would have been.
 void absent_rows(int trials) {
-  CardProblemOptions options;
-  options.clutter = 0.5;
-  options.body_present = false;
+  CardProblemOptions problem;
+  problem.clutter = 0.5;
+  problem.body_present = false;
   std::printf("\n");
   for (const int targets : {5, 8, 12, 25}) {
-    options.targets = targets;
+    problem.targets = targets;
     for (const bool on_card : {false, true}) {
-      options.clutter_on_card = on_card;
+      problem.clutter_on_card = on_card;
       char name[80];
       std::snprintf(name, sizeof name, "%d targets, body absent, dots %s", targets,
                     on_card ? "crowded" : "over the image");
-      run(name, options, trials);
+      run(name, problem, trials);
     }
   }
 }
 
 }  // namespace
 
-/// Options: --trials N (200) clouds a row; --absent N: only the rows without the body, N clouds each.
-int bench_target_identification(int argc, char** argv) {
-  const int trials = option(argc, argv, "--trials", 200);
-  if (const int absent = option(argc, argv, "--absent", 0); absent > 0) {
+int bench_target_identification(Options& options) {
+  int trials = 200;
+  int absent = 0;
+  options.add("--trials", trials, "clouds of a row");
+  options.add("--absent", absent, "clouds without the body, instead of all else; 0: as many as trials", 0);
+  options.read();
+  if (absent > 0) {
     absent_rows(absent);
     return 0;
   }
-  CardProblemOptions options;
-  table("card, clutter over the image", options, trials);
-  options.clutter_on_card = true;
-  table("card, clutter on the card", options, trials);
-  options.clutter_on_card = false;
-  options.solid = true;
-  table("solid body, clutter over the image", options, trials);
-  options.solid = false;
-  options.faces = true;
+  CardProblemOptions problem;
+  table("card, clutter over the image", problem, trials);
+  problem.clutter_on_card = true;
+  table("card, clutter on the card", problem, trials);
+  problem.clutter_on_card = false;
+  problem.solid = true;
+  table("solid body, clutter over the image", problem, trials);
+  problem.solid = false;
+  problem.faces = true;
   std::printf("\n");
   for (const int leds : {5, 6, 10}) {
     for (const double hidden : {0.0, 0.3}) {
       for (const double clutter : {0.0, 0.5}) {
-        options.targets = leds;
-        options.hidden = hidden;
-        options.clutter = clutter;
+        problem.targets = leds;
+        problem.hidden = hidden;
+        problem.clutter = clutter;
         char name[80];
         std::snprintf(name, sizeof name, "box, %d LEDs a face, %.0f %% hidden, %.0f %% clutter", leds,
                       100 * hidden, 100 * clutter);
-        run(name, options, trials);
+        run(name, problem, trials);
       }
     }
   }

@@ -1,6 +1,6 @@
 // omma-bench track: the tracker over many frame sets, as it flies: turning at 10 degrees a second and at the
 // limit, and ten minutes of the demo's rig with a card, planets and objects that cross. Dots with the noise
-// of the demo's sensors (flown_sky.hpp). Options: --minutes N (of the long flight, default 10).
+// of the demo's sensors (flown_sky.hpp).
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +19,7 @@
 #include "tests/bench/benches.hpp"
 #include "tests/bench/flown_sky.hpp"
 #include "tests/bench/measure.hpp"
+#include "tests/bench/options.hpp"
 #include "tests/paths.hpp"
 
 namespace omma {
@@ -308,9 +309,12 @@ int bench_long_flight(const Stage& stage, int minutes) {
 
 }  // namespace
 
-int bench_track(int argc, char** argv) {
-  const int minutes = std::max(1, option(argc, argv, "--minutes", 10));
-  const int frames = std::max(10, option(argc, argv, "--frames", 100));
+int bench_track(Options& options) {
+  int minutes = 10;
+  int frames = 100;
+  options.add("--minutes", minutes, "of the long flight");
+  options.add("--frames", frames, "frame sets at each rate", 10);
+  options.read();
   const Stage stage;
   bench_rates(stage, 0.01, frames);
   bench_rates(stage, 0.05, frames);

@@ -1,31 +1,33 @@
-// The benches of omma-bench. Each prints a table and returns 0, or 2 for an option it does not know.
+// The benches of omma-bench. Each declares its options, prints a table and returns the exit code: 1 where an
+// answer was wrong.
 #pragma once
 
 namespace omma {
 
-int bench_acquire(int argc, char** argv);
-int bench_approach(int argc, char** argv);
-int bench_attitude(int argc, char** argv);
-int bench_axes(int argc, char** argv);
-int bench_blink(int argc, char** argv);
-int bench_blocked(int argc, char** argv);
-int bench_capture(int argc, char** argv);
-int bench_extract(int argc, char** argv);
-int bench_extract_frames(const char* folder, int argc, char** argv);  // omma-bench extract --frames
-int bench_filter(int argc, char** argv);
-int bench_identify(int argc, char** argv);
-int bench_integrity(int argc, char** argv);
-int bench_lens(int argc, char** argv);
-int bench_jitter(int argc, char** argv);
-int bench_photographs(int argc, char** argv);
-int bench_pipelines(int argc, char** argv);
-int bench_ports(int argc, char** argv);
-int bench_pose(int argc, char** argv);
-int bench_real_sky(int argc, char** argv);
-int bench_render(int argc, char** argv);
-int bench_rig_calibration(int argc, char** argv);
-int bench_steps(int argc, char** argv);
-int bench_target_identification(int argc, char** argv);
-int bench_track(int argc, char** argv);
+class Options;
+
+int bench_acquire(Options& options);
+int bench_approach(Options& options);
+int bench_attitude(Options& options);
+int bench_axes(Options& options);
+int bench_blink(Options& options);
+int bench_blocked(Options& options);
+int bench_capture(Options& options);
+int bench_extract(Options& options);
+int bench_filter(Options& options);
+int bench_identify(Options& options);
+int bench_integrity(Options& options);
+int bench_lens(Options& options);
+int bench_jitter(Options& options);
+int bench_photographs(Options& options);
+int bench_pipelines(Options& options);
+int bench_ports(Options& options);
+int bench_pose(Options& options);
+int bench_real_sky(Options& options);
+int bench_render(Options& options);
+int bench_rig_calibration(Options& options);
+int bench_steps(Options& options);
+int bench_target_identification(Options& options);
+int bench_track(Options& options);
 
 }  // namespace omma

@@ -1,11 +1,9 @@
-// What benches share: a stop-watch, order statistics, and the `--name value` options.
+// What benches share: a stop-watch and order statistics.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <vector>
 
@@ -57,27 +55,6 @@ inline double quantile(std::vector<double> samples, double q) {
   const auto k = static_cast<std::ptrdiff_t>(q * static_cast<double>(samples.size() - 1) + 0.5);
   std::nth_element(samples.begin(), samples.begin() + k, samples.end());
   return samples[static_cast<std::size_t>(k)];
-}
-
-/// Text after `--name` among the arguments, or `fallback`.
-inline const char* text_option(int argc, char** argv, const char* name, const char* fallback) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) return argv[i + 1];
-  return fallback;
-}
-
-/// True where `--name` is among the arguments.
-inline bool has_option(int argc, char** argv, const char* name) {
-  for (int i = 1; i < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) return true;
-  return false;
-}
-
-/// Value of `--name N` among the arguments, or `fallback`.
-inline int option(int argc, char** argv, const char* name, int fallback) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], name) == 0) return std::atoi(argv[i + 1]);
-  return fallback;
 }
 
 }  // namespace omma

@@ -3,12 +3,13 @@
 #include <cstring>
 
 #include "tests/bench/benches.hpp"
+#include "tests/bench/options.hpp"
 
 namespace {
 
 struct Bench {
   const char* name;
-  int (*run)(int argc, char** argv);
+  int (*run)(omma::Options& options);
   const char* what;
 };
 
@@ -57,8 +58,12 @@ constexpr Bench kBenches[] = {
 
 int main(int argc, char** argv) {
   for (const Bench& bench : kBenches)
-    if (argc > 1 && std::strcmp(argv[1], bench.name) == 0) return bench.run(argc - 1, argv + 1);
-  std::fprintf(stderr, "usage: omma-bench NAME [options]\n");
+    if (argc > 1 && std::strcmp(argv[1], bench.name) == 0) {
+      omma::Options options(bench.name, bench.what, argc - 1, argv + 1);
+      return omma::Options::run(bench.run, options);
+    }
+  if (argc > 1 && argv[1][0] != '-') std::fprintf(stderr, "omma-bench: no bench is called '%s'\n", argv[1]);
+  std::fprintf(stderr, "usage: omma-bench NAME [options]; omma-bench NAME --help tells them\n");
   for (const Bench& bench : kBenches) std::fprintf(stderr, "  %-24s %s\n", bench.name, bench.what);
   return 2;
 }

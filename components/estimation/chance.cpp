@@ -22,7 +22,7 @@ struct Scaled {
 };
 
 // e⁻ʸ for 0 <= y < 1e9: halvings taken out, the rest by its Taylor series.
-Scaled decay(double y) noexcept {
+Scaled scaled_decay(double y) noexcept {
   const double halvings = std::floor(y / std::numbers::ln2);
   constexpr double kLn2High = 0x1.62e42feep-1;  // few digits: its product with the halvings is exact
   constexpr double kLn2Low = 1.9082149292705877e-10;
@@ -37,7 +37,7 @@ Scaled decay(double y) noexcept {
 
 // yʲ e⁻ʸ / Γ(j + 1) for j = lowest + steps, lowest 0 or 1/2.
 double poisson_term(double y, double lowest, int steps) noexcept {
-  Scaled term = decay(y);
+  Scaled term = scaled_decay(y);
   if (lowest > 0) term.multiply(2 * std::sqrt(y / std::numbers::pi));  // Γ(3/2) = √π / 2
   for (int k = 1; k <= steps; ++k) term.multiply(y / (lowest + k));
   return term.value();
@@ -57,10 +57,14 @@ double erfc_of_root(double y) noexcept {
   const double root = std::sqrt(y);
   double fraction = root;
   for (int k = 120; k > 0; --k) fraction = root + 0.5 * k / fraction;
-  return decay(y).value() / (fraction * std::sqrt(std::numbers::pi));
+  return scaled_decay(y).value() / (fraction * std::sqrt(std::numbers::pi));
 }
 
 }  // namespace
+
+double decay(double y) noexcept {
+  return y < 1e9 ? scaled_decay(y).value() : 0;
+}
 
 double chi_square_tail(double chi2, int freedom) noexcept {
   if (freedom <= 0) return 1;

@@ -1,7 +1,11 @@
-// Chances of normal errors: how likely a χ² as large is, and how many σ leave a given chance outside.
+// Chances of normal errors: their density's decay, how likely a χ² as large is, how many σ leave a given
+// chance outside.
 #pragma once
 
 namespace omma {
+
+/// e⁻ʸ for y of 0 or more, the same bits on every machine; 0 from 1e9 on and for NaN.
+double decay(double y) noexcept;
 
 /// Probability that a χ² of `freedom` degrees of freedom is larger than `chi2`: the finite sum of its closed
 /// form (Abramowitz & Stegun 26.4.4, 26.4.5). 1 without freedom; NaN counts as impossibly large.

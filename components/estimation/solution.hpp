@@ -48,6 +48,7 @@ struct PoseSolution {
   bool has_alternative = false;
   Pose alternative;
   double alternative_chi2 = 0;
+  double alternative_probability = 0;  ///< that the truth is there rather than here, data (and prior) alone
 };
 
 }  // namespace omma

@@ -268,6 +268,7 @@ void fill(const PoseEstimate& pose, std::string_view body_name, omma_RelativePos
   out.alternative_rig_from_body = quaternion(solution.alternative.rotation);
   out.alternative_position_m = vector(solution.alternative.translation);
   out.alternative_chi2 = solution.alternative_chi2;
+  out.alternative_probability = solution.alternative_probability;
   const BodyMotion& motion = pose.motion;
   out.motion_valid = motion.valid;
   out.first_frame = motion.first_frame;

@@ -168,6 +168,12 @@ void add_attitude(Table& table, const omma_Attitude& attitude) {
                    rate.z * kDegrees));
 }
 
+std::string doubt(const omma_RelativePose& pose) {
+  if (!pose.valid || !pose.ambiguous) return "";
+  if (!pose.has_alternative) return "   AMBIGUOUS";
+  return format("   AMBIGUOUS (the other pose %.1f %%)", 100 * pose.alternative_probability);
+}
+
 void add_pose(Table& table, const omma_RelativePose& pose) {
   const LineStyle style = !pose.valid      ? LineStyle::kBad
                           : pose.ambiguous ? LineStyle::kWarning
@@ -175,7 +181,7 @@ void add_pose(Table& table, const omma_RelativePose& pose) {
   table.add(TopicId::kRelativePose, style,
             format("%-12s %s   targets %u used, %u culled   residual %.1f arcsec rms%s", pose.body_name,
                    pose.valid ? name_of(pose.state) : "NOT VALID", pose.targets_used, pose.targets_culled,
-                   pose.residual_rms_rad * kArcseconds, pose.valid && pose.ambiguous ? "   AMBIGUOUS" : ""));
+                   pose.residual_rms_rad * kArcseconds, doubt(pose).c_str()));
   if (!pose.valid) return;
   const omma_Vector3& p = pose.position_m;
   const double* covariance = pose.covariance;

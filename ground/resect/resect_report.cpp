@@ -66,8 +66,9 @@ std::string resection_text(const Rig& rig, const Resection& resection, const Dot
   const Pose body_from_rig = resection.pose.rig_from_body.inverse();
   text += "body_from_rig\n" + pose_text(body_from_rig);
   if (resection.pose.has_alternative) {
-    text += format("%s (chi2 %.1f against %.1f)\n", doubt(resection.pose), resection.pose.alternative_chi2,
-                   resection.pose.chi2);
+    text +=
+        format("%s (chi2 %.1f against %.1f, probability %.2g)\n", doubt(resection.pose),
+               resection.pose.alternative_chi2, resection.pose.chi2, resection.pose.alternative_probability);
     text += pose_text(resection.pose.alternative);
   } else if (resection.pose.ambiguous) {
     text += "ambiguous: the rotation of a card seen from the front hardly shows\n";
@@ -92,10 +93,11 @@ std::string resection_json(const Rig& rig, const Resection& resection, const Dot
     json["ambiguous"] = resection.pose.ambiguous;
     json["alternative"] =
         resection.pose.has_alternative ? pose_json(resection.pose.alternative) : ordered_json(nullptr);
+    json["alternative_probability"] = resection.pose.alternative_probability;
     for (const int count : resection.targets_used) used += count;
   } else {
     for (const char* field : {"rig_from_body", "body_from_rig", "by_hand", "sigma_deg", "sigma_m", "range_m",
-                              "range_sigma_m", "ambiguous", "alternative"}) {
+                              "range_sigma_m", "ambiguous", "alternative", "alternative_probability"}) {
       json[field] = nullptr;
     }
   }

@@ -31,8 +31,8 @@ inline std::vector<double> numbers_of(const PoseSolution& s) {
     numbers.insert(numbers.end(), pose.translation.begin(), pose.translation.end());
   }
   numbers.insert(numbers.end(), s.covariance.data(), s.covariance.data() + 36);
-  numbers.insert(numbers.end(), {s.chi2, s.residual_rms, s.alternative_chi2, double(s.pairs),
-                                 double(s.iterations), double(s.ambiguous)});
+  numbers.insert(numbers.end(), {s.chi2, s.residual_rms, s.alternative_chi2, s.alternative_probability,
+                                 double(s.pairs), double(s.iterations), double(s.ambiguous)});
   return numbers;
 }
 

@@ -9,6 +9,14 @@
 namespace omma {
 namespace {
 
+TEST(Chance, DecayIsTheExponential) {
+  for (const double y : {0.0, 1e-9, 0.3, 0.6931471805599453, 1.0, 17.5, 700.0})
+    EXPECT_NEAR(decay(y) / std::exp(-y), 1, 1e-14) << y;
+  EXPECT_EQ(decay(1e4), 0);
+  EXPECT_EQ(decay(std::numeric_limits<double>::infinity()), 0);
+  EXPECT_EQ(decay(std::numeric_limits<double>::quiet_NaN()), 0);
+}
+
 TEST(Chance, ChiSquareTailMeetsTables) {
   // Abramowitz & Stegun, table 26.8; NIST e-Handbook 1.3.6.7.4.
   EXPECT_NEAR(chi_square_tail(3.841, 1), 0.05, 1e-4);

@@ -206,53 +206,6 @@ TEST(RigPose, ReachesTheCramerRaoBound) {
   }
 }
 
-TEST(RigPose, AFlatCardsOtherMinimumIsFoundFromEitherSide) {
-  RigProblemOptions options;
-  options.sigma_deg = 0.1;
-  int with_alternative = 0, swapped = 0, same_answer = 0, from_far_side = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const RigProblem problem = make_rig_problem(options, 1000 + static_cast<std::uint64_t>(trial));
-    const PoseSolution solution = solve_pose(problem.sights, problem.prior, {}, {});
-    if (!solution.has_alternative) continue;
-    ++with_alternative;
-    EXPECT_GE(solution.alternative_chi2, solution.chi2);
-    const PoseSolution again = solve_pose(problem.sights, solution.alternative, {}, {});
-    if (!again.has_alternative) continue;
-    ++from_far_side;
-    const Vector6d apart = pose_error(again.rig_from_body, solution.rig_from_body);
-    same_answer += apart.dot(information_of(solution) * apart) < 1e-2 ? 1 : 0;
-    SolveOptions nearest;
-    nearest.second_minimum = SecondMinimum::kIgnore;
-    const PoseSolution stays = solve_pose(problem.sights, solution.alternative, nearest, {});
-    const Vector6d moved = pose_error(stays.rig_from_body, solution.rig_from_body);
-    swapped += moved.dot(information_of(solution) * moved) > 1 ? 1 : 0;
-  }
-  EXPECT_GT(with_alternative, 100);
-  EXPECT_GE(same_answer, from_far_side * 95 / 100);
-  EXPECT_GT(swapped, from_far_side * 90 / 100);  // it is a minimum of its own
-}
-
-TEST(RigPose, AnAmbiguousCardIsDecidedByTheTrustInTheStart) {
-  RigProblemOptions options;
-  options.targets = 8;
-  options.sigma_deg = 0.2;
-  int ambiguous = 0, nearest_to_prior = 0;
-  for (int trial = 0; trial < 300; ++trial) {
-    const RigProblem problem = make_rig_problem(options, static_cast<std::uint64_t>(trial));
-    const PoseSolution free = solve_pose(problem.sights, problem.prior, {}, {});
-    if (!free.ambiguous || free.status != SolveStatus::kSolved) continue;
-    ++ambiguous;
-    SolveOptions trusting;
-    trusting.prior_rotation_sigma = 0.01;
-    const PoseSolution held = solve_pose(problem.sights, problem.prior, trusting, {});
-    const double chosen = held.rig_from_body.rotation.angularDistance(problem.prior.rotation);
-    const double other = held.alternative.rotation.angularDistance(problem.prior.rotation);
-    nearest_to_prior += chosen < other ? 1 : 0;
-  }
-  EXPECT_GT(ambiguous, 20);
-  EXPECT_GE(nearest_to_prior, ambiguous * 95 / 100);
-}
-
 TEST(RigPose, CullsMisPairedTargets) {
   RigProblemOptions options;
   options.targets = 60;

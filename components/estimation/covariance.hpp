@@ -1,11 +1,11 @@
 // Covariances: from information, in the body's frame, and their weakest directions.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "components/estimation/small_cholesky.hpp"
 #include "components/estimation/weakest_direction.hpp"
 #include "components/geometry/pose.hpp"
 
@@ -17,17 +17,15 @@ template <int kUnknowns>
 bool covariance_of(const Eigen::Matrix<double, kUnknowns, kUnknowns>& information,
                    Eigen::Matrix<double, kUnknowns, kUnknowns>& covariance) noexcept {
   using Vector = Eigen::Matrix<double, kUnknowns, 1>;
-  using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
   constexpr double kLeastPivot = 1e-11;
   const Vector diagonal = information.diagonal();
   if (!(diagonal.minCoeff() > 0) || !(diagonal.maxCoeff() < 1e300)) return false;
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Matrix> factor(scale.asDiagonal() * information * scale.asDiagonal());
-  if (factor.info() != Eigen::Success) return false;
-  const double pivot = factor.matrixLLT().diagonal().minCoeff();
-  if (!(pivot * pivot > kLeastPivot)) return false;
-  const Matrix whole = factor.solve(Matrix::Identity());
-  covariance = scale.asDiagonal() * whole * scale.asDiagonal();
+  const SmallCholesky<kUnknowns> factor(scale.asDiagonal() * information * scale.asDiagonal());
+  if (!(factor.smallest_pivot() > kLeastPivot)) return false;
+  for (int column = 0; column < kUnknowns; ++column)
+    covariance.col(column) = scale.cwiseProduct(factor.solve(scale[column] * Vector::Unit(column)));
+  covariance = (0.5 * (covariance + covariance.transpose())).eval();
   return true;
 }
 

@@ -4,13 +4,13 @@
 // Anderson 1965, Walker & Ni 2011 (acceleration of slow steps).
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
 #include "components/estimation/normal_equations.hpp"
+#include "components/estimation/small_cholesky.hpp"
 
 namespace omma {
 
@@ -54,11 +54,9 @@ bool damped_step(const NormalEquations<kUnknowns>& equations, double damping,
   const Vector scale = diagonal.cwiseSqrt().cwiseInverse();
   Matrix scaled = scale.asDiagonal() * equations.information * scale.asDiagonal();
   scaled.diagonal().array() += damping;
-  const Eigen::LLT<Matrix> factor(scaled);
-  if (factor.info() != Eigen::Success) return false;
-  const double pivot = factor.matrixLLT().diagonal().minCoeff();
-  if (!(pivot * pivot > kSmallestPivot)) return false;
-  step = -(scale.asDiagonal() * factor.solve(scale.asDiagonal() * equations.gradient));
+  const SmallCholesky<kUnknowns> factor(scaled);
+  if (!(factor.smallest_pivot() > kSmallestPivot)) return false;
+  step = -scale.cwiseProduct(factor.solve(scale.cwiseProduct(equations.gradient)));
   return step.allFinite();
 }
 

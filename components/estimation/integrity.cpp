@@ -1,5 +1,7 @@
 #include "components/estimation/integrity.hpp"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,12 +44,13 @@ class Check {
   using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 
   Check(std::span<const Sight> sights, std::span<const SightSource> sources,
-        std::span<const std::uint8_t> used, const Pose& pose, const CameraAxes& axes,
+        std::span<const std::uint8_t> used, const Pose& pose, const Matrix& bend, const CameraAxes& axes,
         const IntegrityOptions& options, Integrity& out) noexcept
       : sights_(sights),
         sources_(sources),
         used_(used),
         pose_(pose),
+        bend_(bend),
         options_(options),
         out_(out),
         rotation_(pose.rotation.toRotationMatrix()),
@@ -63,7 +66,7 @@ class Check {
       return;
     }
     spread_ = terms_.spread();
-    total_ = covariance_ + covariance_ * spread_ * covariance_;
+    total_ = covariance_ + bend_ + covariance_ * spread_ * covariance_;
     out_.rig.covariance.template topLeftCorner<kUnknowns, kUnknowns>() = total_;
     out_.body.covariance.template topLeftCorner<kUnknowns, kUnknowns>() =
         to_body_ * total_ * to_body_.transpose();
@@ -182,7 +185,7 @@ class Check {
       if (contradiction * contradiction > threshold2) out_.state = IntegrityState::kAlert;
       if (sigmas <= 0) continue;
       const Matrix without = covariance_ + loss * loss.transpose();
-      protect(move, without + without * spread_ * without, sigmas);
+      protect(move, without + bend_ + without * spread_ * without, sigmas);
     }
   }
 
@@ -210,7 +213,7 @@ class Check {
         out_.suspect_camera = static_cast<std::uint8_t>(c);
       }
       if (probability < options_.false_alarm / taking_part) out_.state = IntegrityState::kAlert;
-      if (sigmas > 0) protect(move, without + without * terms_.spread_without(c) * without, sigmas);
+      if (sigmas > 0) protect(move, without + bend_ + without * terms_.spread_without(c) * without, sigmas);
     }
   }
 
@@ -218,6 +221,7 @@ class Check {
   std::span<const SightSource> sources_;
   std::span<const std::uint8_t> used_;
   const Pose& pose_;
+  Matrix bend_;  ///< of the cost: as much without a dot or a camera
   const IntegrityOptions& options_;
   Integrity& out_;
   Eigen::Matrix3d rotation_;
@@ -248,7 +252,8 @@ Integrity attitude_integrity(std::span<const Sight> sights, std::span<const Sigh
   if (!has_answer(solution) || sources.size() != sights.size()) return integrity;
   const Pose pose{solution.rig_from_j2000, Eigen::Vector3d::Zero()};
   integrity.rig.covariance.topLeftCorner<3, 3>() = solution.covariance;
-  Check<kAttitudeUnknowns> check(sights, sources, used, pose, axes, options, integrity);
+  Check<kAttitudeUnknowns> check(sights, sources, used, pose, Eigen::Matrix3d::Zero(), axes, options,
+                                 integrity);
   check.run();
   return integrity;
 }
@@ -259,7 +264,8 @@ Integrity pose_integrity(std::span<const Sight> sights, std::span<const SightSou
   Integrity integrity;
   if (!has_answer(solution) || sources.size() != sights.size()) return integrity;
   integrity.rig.covariance = solution.covariance;
-  Check<kPoseUnknowns> check(sights, sources, used, solution.rig_from_body, axes, options, integrity);
+  Check<kPoseUnknowns> check(sights, sources, used, solution.rig_from_body, solution.bend, axes, options,
+                             integrity);
   check.run();
   if (solution.ambiguous && solution.has_alternative) check.allow(solution.alternative);
   if (solution.ambiguous && !solution.has_alternative) check.withhold();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/estimation/bent_cost.hpp"
 #include "components/estimation/covariance.hpp"
 #include "components/estimation/fit.hpp"
 #include "components/estimation/flat_card.hpp"
@@ -75,6 +76,12 @@ AttitudeSolution solve_attitude(std::span<const Sight> sights, const Eigen::Quat
 
 PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial, const SolveOptions& options,
                         std::span<std::uint8_t> used) noexcept {
+  return solve_pose(sights, initial, initial.rotation, options, used);
+}
+
+PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial,
+                        const Eigen::Quaterniond& expected, const SolveOptions& options,
+                        std::span<std::uint8_t> used) noexcept {
   PoseSolution solution;
   solution.rig_from_body = initial;
   Fit<kPoseUnknowns> fit(sights, options);
@@ -85,7 +92,7 @@ PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial, cons
                        fit.kept() == fit.sights().size() ? std::span<const double>{} : fit.weights());
     const bool follows = options.second_minimum == SecondMinimum::kFollow && shape.flat &&
                          fit.kept() > kFewestPairs<kPoseUnknowns> && !fit.descent().singular;
-    if (follows) follow_second_minimum(shape, initial, options, fit, solution);
+    if (follows) follow_second_minimum(shape, expected, options, fit, solution);
   }
   if (fit.kept() > 0) solution.rig_from_body = fit.descent().pose;
   report(fit, sights.size(), options, used, solution);
@@ -94,6 +101,10 @@ PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial, cons
   const bool solved =
       solution.status == SolveStatus::kSolved || solution.status == SolveStatus::kIterationCap;
   if (!solved) return solution;
+  if (shape.flat && fit.kept() > kFewestPairs<kPoseUnknowns>) {
+    solution.bend = spread_of_bend(fit, solution.covariance);
+    solution.covariance += solution.bend;
+  }
   const Observable fixed = observable(shape, solution, options);
   solution.position_observable = fixed.position;
   solution.rotation_observable = fixed.rotation && (!solution.ambiguous || solution.has_alternative);

@@ -42,7 +42,7 @@ struct SolveOptions {
   double largest_rotation_sigma = 0.6;   ///< weakest rotation still reported [rad]
   double largest_position_sigma = 0.25;  ///< weakest position still reported, part of the range
   SecondMinimum second_minimum = SecondMinimum::kFollow;
-  /// Trust in the initial rotation, used only to choose between two minima [rad].
+  /// Trust in the initial rotation, used only to choose between two minima and in their odds [rad].
   double prior_rotation_sigma = std::numeric_limits<double>::infinity();
   /// Two minima whose scores (χ² plus the prior's term) differ by less are ambiguous: 18.4 is 10⁴ : 1.
   double ambiguity_margin = 18.4;
@@ -56,9 +56,9 @@ inline constexpr int kMaxCullPasses = 4;  ///< cull and descend again, at most s
 inline constexpr int kRobustSteps = 14;   ///< from the convex loss to the sharp one
 
 /// Iterations one solve can make: first descent, robust steps, culls; a flat card's second minimum, twice,
-/// and culls.
+/// culls, and the first again.
 constexpr int most_iterations(const SolveOptions& options) {
-  return (3 + 2 * kMaxCullPasses) * options.max_iterations + kRobustSteps + 1;
+  return (4 + 2 * kMaxCullPasses) * options.max_iterations + kRobustSteps + 1;
 }
 
 /// Rotation of the rig from sights of stars (`point` a unit vector, `origin` unused).
@@ -72,6 +72,12 @@ AttitudeSolution solve_attitude(std::span<const Sight> sights, const Eigen::Quat
 /// @param initial  rig_from_body to start from
 /// @param used     as above
 PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial, const SolveOptions& options,
+                        std::span<std::uint8_t> used) noexcept;
+
+/// The same from a start that is not what is expected.
+/// @param expected  rotation that `options.prior_rotation_sigma` is of
+PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial,
+                        const Eigen::Quaterniond& expected, const SolveOptions& options,
                         std::span<std::uint8_t> used) noexcept;
 
 }  // namespace omma

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "components/estimation/flat_card.hpp"
 #include "components/estimation/generalised_three_point.hpp"
@@ -23,6 +24,7 @@ constexpr double kAlikeRotation = 0.9997;  // cosine of half the angle: 2.8°
 constexpr double kAlikePosition = 0.03;    // of the distance
 constexpr std::size_t kFewSights = 12;
 constexpr double kImprobable = 4.0;  // χ² this many of its standard deviations too large is not noise
+constexpr double kFarStart = 0.2;    // between start and solution: it may explain less than another [rad]
 
 struct Triple {
   std::array<std::uint16_t, 3> sights;
@@ -190,6 +192,7 @@ class Search {
   Search(std::span<const Sight> sights, const SolveOptions& options, const PoseSolution& nothing)
       : sights_(sights), options_(options), refining_(options), best_(nothing) {
     refining_.initial_gate = kCoarseGate;
+    refining_.prior_rotation_sigma = std::numeric_limits<double>::infinity();  // a candidate is no prior
   }
 
   void refine(const StaticVector<Candidate, kRefined>& candidates) noexcept {
@@ -247,7 +250,10 @@ PoseSolution find_pose(std::span<const Sight> sights, const SolveOptions& option
 PoseSolution solve_pose_or_find(std::span<const Sight> sights, const Pose& initial,
                                 const SolveOptions& options, std::span<std::uint8_t> used) noexcept {
   PoseSolution near = solve_pose(sights, initial, options, used);
-  if (explained_by_noise(near, sights.size())) return near;
+  // What a start far off led to may be a wrong pose that explains most sights.
+  const bool strayed =
+      near.culled > 0 && near.rig_from_body.rotation.angularDistance(initial.rotation) > kFarStart;
+  if (!strayed && explained_by_noise(near, sights.size())) return near;
   std::array<std::uint8_t, kMaxSights> flags{};
   const std::size_t n = std::min(sights.size(), kMaxSights);
   PoseSolution found = find_pose(sights, options, {flags.data(), n});
@@ -255,6 +261,11 @@ PoseSolution solve_pose_or_find(std::span<const Sight> sights, const Pose& initi
   const double near_cost = measured(sights.first(n), near.rig_from_body, options.gate).cost;
   const double found_cost = measured(sights.first(n), found.rig_from_body, options.gate).cost;
   if (solved(near) && !(found_cost < near_cost)) return near;
+  if (std::isfinite(options.prior_rotation_sigma) && found.has_alternative) {  // the prior votes now
+    SolveOptions voting = options;
+    voting.initial_gate = kCoarseGate;
+    found = solve_pose(sights, found.rig_from_body, initial.rotation, voting, {flags.data(), n});
+  }
   std::copy_n(flags.begin(), std::min(used.size(), n), used.begin());
   return found;
 }

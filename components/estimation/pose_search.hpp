@@ -18,11 +18,13 @@ inline constexpr std::size_t kMostTriples = 32;
 
 /// Cold start. The first ⌊N/3⌋ triples share no sight, so that fewer than ⌊N/3⌋ mis-pairings (and N ≤ 96)
 /// leave at least one triple free of them.
-/// @param used  as in solve_pose
+/// @param options  of the refinement; there is no prior
+/// @param used     as in solve_pose
 PoseSolution find_pose(std::span<const Sight> sights, const SolveOptions& options,
                        std::span<std::uint8_t> used) noexcept;
 
-/// solve_pose from `initial`, and a cold start where that ends in residuals the dots' noise does not explain.
+/// solve_pose from `initial`, and a cold start where that ends in residuals the dots' noise does not explain,
+/// or far from the start without some of the sights.
 PoseSolution solve_pose_or_find(std::span<const Sight> sights, const Pose& initial,
                                 const SolveOptions& options, std::span<std::uint8_t> used) noexcept;
 

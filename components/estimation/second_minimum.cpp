@@ -1,18 +1,20 @@
 #include "components/estimation/second_minimum.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "components/estimation/chance.hpp"
 #include "components/estimation/descent.hpp"
+#include "components/estimation/small_cholesky.hpp"
 
 namespace omma {
 namespace {
 
-double prior_cost(const Pose& pose, const Pose& initial, const SolveOptions& options) noexcept {
+double prior_cost(const Pose& pose, const Eigen::Quaterniond& expected,
+                  const SolveOptions& options) noexcept {
   if (!std::isfinite(options.prior_rotation_sigma)) return 0;
-  const double angle = pose.rotation.angularDistance(initial.rotation) / options.prior_rotation_sigma;
+  const double angle = pose.rotation.angularDistance(expected) / options.prior_rotation_sigma;
   return angle * angle;
 }
 
@@ -26,6 +28,11 @@ Vector6d between(const Pose& from, const Pose& to) noexcept {
   Vector6d apart;
   apart << rotation_log(to.rotation * from.rotation.conjugate()), to.translation - from.translation;
   return apart;
+}
+
+bool one_minimum(const Descent<kPoseUnknowns>& descent, const Pose& other) noexcept {
+  const Vector6d apart = between(descent.pose, other);
+  return apart.dot(descent.information * apart) < kOneMinimum * kOneMinimum;
 }
 
 /// A pose this many σ away, by the covariance, is not to be expected.
@@ -60,53 +67,54 @@ bool in_one_valley(Fit<kPoseUnknowns>& fit, const CardShape& shape, const Pose& 
 
 /// Probability that the truth lies in `other` rather than in `one`, each as heavy as Laplace's approximation
 /// makes it: e^(−score/2) / √det H. The determinants' ratio is that of the pivots of both Cholesky factors.
+/// At most a half: the well of a shallow minimum ends at the saddle, where the Gaussian of its curvature does
+/// not, and of such the higher was seen not to be the likelier.
 double probability_of(double other_score, const Matrix6d& other, double one_score,
                       const Matrix6d& one) noexcept {
-  const Eigen::LLT<Matrix6d> other_factor(other), one_factor(one);
-  if (other_factor.info() != Eigen::Success || one_factor.info() != Eigen::Success) return 0;
+  const SmallCholesky<kPoseUnknowns> other_factor(other), one_factor(one);
+  if (!(other_factor.smallest_pivot() > 0) || !(one_factor.smallest_pivot() > 0)) return 0;
   double wider = 1;
   for (int i = 0; i < kPoseUnknowns; ++i)
-    wider *= one_factor.matrixLLT()(i, i) / other_factor.matrixLLT()(i, i);
+    wider *= other_factor.inverse_diagonal(i) / one_factor.inverse_diagonal(i);
   const double worse = other_score - one_score;
   const double other_weight = wider * decay(0.5 * std::max(0.0, worse));
   const double one_weight = decay(0.5 * std::max(0.0, -worse));
-  return other_weight / (one_weight + other_weight);
+  return std::min(0.5, other_weight / (one_weight + other_weight));
 }
 
 }  // namespace
 
-void follow_second_minimum(const CardShape& shape, const Pose& initial, const SolveOptions& options,
-                           Fit<kPoseUnknowns>& fit, PoseSolution& solution) noexcept {
+void follow_second_minimum(const CardShape& shape, const Eigen::Quaterniond& expected,
+                           const SolveOptions& options, Fit<kPoseUnknowns>& fit,
+                           PoseSolution& solution) noexcept {
   const Pose first = fit.descent().pose;
-  const Pose mirrored = mirrored_pose(shape, first);
-  const double first_chi2 = fit.chi2();
-  const double first_score = first_chi2 + prior_cost(first, initial, options);
-  const Descent<kPoseUnknowns> other =
-      fit.descend_kept(mirrored, first_score + kContenderMargin * options.ambiguity_margin);
+  const double first_score = fit.chi2() + prior_cost(first, expected, options);
+  Descent<kPoseUnknowns> other = fit.descend_kept(mirrored_pose(shape, first),
+                                                  first_score + kContenderMargin * options.ambiguity_margin);
   if (other.singular || other.gave_up) return;
-  const Vector6d apart = between(first, other.pose);
-  if (apart.dot(fit.descent().information * apart) < kOneMinimum * kOneMinimum) {
-    solution.ambiguous = in_one_valley(fit, shape, mirrored, options);
+  if (!one_minimum(fit.descent(), other.pose) &&
+      fit.chi2_at(other.pose) + prior_cost(other.pose, expected, options) < first_score) {
+    // The likelier is the answer. It may keep other sights: the first is solved again with those.
+    fit.solve_kept(other.pose);
+    if (options.cull == CullRule::kChiSquare) fit.cull_and_descend();
+    other = fit.descend_kept(first, std::numeric_limits<double>::infinity());
+    if (other.singular) return;
+  }
+  const Pose& best = fit.descent().pose;
+  if (one_minimum(fit.descent(), other.pose)) {
+    solution.ambiguous = in_one_valley(fit, shape, mirrored_pose(shape, best), options);
     return;
   }
   const double other_chi2 = fit.chi2_at(other.pose);
   if (!std::isfinite(other_chi2)) return;
-
+  const double score = fit.chi2() + prior_cost(best, expected, options);
+  const double other_score = other_chi2 + prior_cost(other.pose, expected, options);
   solution.has_alternative = true;
-  const double other_score = other_chi2 + prior_cost(other.pose, initial, options);
-  const double gain = first_score - other_score;
-  const double probability =
-      probability_of(other_score, other.information, first_score, fit.descent().information);
-  solution.ambiguous = std::abs(gain) < options.ambiguity_margin;
+  solution.ambiguous = other_score - score < options.ambiguity_margin;
   solution.alternative = other.pose;
   solution.alternative_chi2 = other_chi2;
-  solution.alternative_probability = probability;
-  if (!(gain > 0)) return;
-  solution.alternative = first;
-  solution.alternative_chi2 = first_chi2;
-  solution.alternative_probability = 1 - probability;
-  fit.solve_kept(other.pose);
-  if (options.cull == CullRule::kChiSquare) fit.cull_and_descend();
+  solution.alternative_probability =
+      probability_of(other_score, other.information, score, fit.descent().information);
 }
 
 }  // namespace omma

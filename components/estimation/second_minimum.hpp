@@ -11,7 +11,9 @@ namespace omma {
 
 /// Solves in the mirror image of a flat card's pose as well; keeps the likelier minimum in `fit`, the other
 /// in `solution`.
-void follow_second_minimum(const CardShape& shape, const Pose& initial, const SolveOptions& options,
-                           Fit<kPoseUnknowns>& fit, PoseSolution& solution) noexcept;
+/// @param expected  rotation that `options.prior_rotation_sigma` is of
+void follow_second_minimum(const CardShape& shape, const Eigen::Quaterniond& expected,
+                           const SolveOptions& options, Fit<kPoseUnknowns>& fit,
+                           PoseSolution& solution) noexcept;
 
 }  // namespace omma

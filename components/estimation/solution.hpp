@@ -38,6 +38,7 @@ struct PoseSolution {
   bool position_observable = false;
   bool rotation_observable = false;
   Matrix6d covariance = Matrix6d::Zero();  ///< (δθ, δt), rig frame [rad², rad·m, m²]
+  Matrix6d bend = Matrix6d::Zero();        ///< of it, what the information at the minimum does not tell
   double chi2 = 0;
   double residual_rms = 0;  ///< angular residual of the pairs used [rad]
   std::uint16_t pairs = 0;

@@ -5,8 +5,10 @@ namespace omma {
 SeenPose seen_pose(const PoseEstimate& estimate, std::span<const Sight> sights,
                    std::span<const SightSource> sources, const CalibrationError& calibration,
                    const CameraAxes& axes) noexcept {
-  const Pose& pose = estimate.solution.rig_from_body;
-  SeenPose seen{estimate.frame, pose, estimate.solution.covariance, {calibration, axes}};
+  const PoseSolution& solution = estimate.solution;
+  const Pose& pose = solution.rig_from_body;
+  SeenPose seen{
+      estimate.frame, pose, solution.covariance - solution.bend, solution.bend, {calibration, axes}};
   if (!calibration.any()) return seen;
   const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < sights.size(); ++i) {
@@ -33,7 +35,7 @@ BodyMotion motion_between(const SeenPose& first, const SeenPose& now) noexcept {
   Matrix6d by_first = Matrix6d::Identity();
   by_first.topLeftCorner<3, 3>() = motion.since_first.rotation.toRotationMatrix();
   motion.covariance =
-      now.noise + by_first * first.noise * by_first.transpose() +
+      now.noise + now.bend + by_first * (first.noise + first.bend) * by_first.transpose() +
       now.calibration.spread_of_difference(now.noise, first.calibration, by_first * first.noise);
   return motion;
 }

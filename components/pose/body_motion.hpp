@@ -17,6 +17,7 @@ struct SeenPose {
   std::uint64_t frame = 0;
   Pose rig_from_body;
   Matrix6d noise = Matrix6d::Zero();            ///< covariance of (δθ, δt) from the dots' noise, rig frame
+  Matrix6d bend = Matrix6d::Zero();             ///< beside it: what the cost's bend adds
   CalibrationTerms<kPoseUnknowns> calibration;  ///< what errors of calibration do to its normal equations
 };
 

@@ -40,9 +40,10 @@ void RelativePose::solve_body(const BodyPairings& body, PoseEstimate& out) noexc
 
   sights_.clear();
   for (const Pairing& pairing : body.pairs) sights_.push_back(pairing.sight);
-  SolveOptions options = parameters_.solve;
-  // While a body is tracked its predicted rotation helps to choose between the two minima of a flat card.
-  out.solution = solve_pose(sights_, body.rig_from_body, options, {out.used.data(), out.used.size()});
+  // The dots of each frame set decide alone between the two minima of a flat card: trust in the pose before
+  // would confirm its mistakes.
+  out.solution =
+      solve_pose(sights_, body.rig_from_body, parameters_.solve, {out.used.data(), out.used.size()});
   out.valid =
       (out.solution.status == SolveStatus::kSolved || out.solution.status == SolveStatus::kIterationCap) &&
       out.solution.pairs >= parameters_.least_pairs;

@@ -4,7 +4,9 @@
 // PoseLib 11.7/19.9/49 warm and 62/91/186 cold, Ceres 33/57/126 warm. `--methods`: the reference methods of
 // ground/methods instead, side by side with ours. `--minima`: beside the global minimum of the same cost.
 #include <Eigen/LU>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <vector>
 
 #include "components/estimation/least_squares.hpp"
@@ -132,15 +134,19 @@ void cold(const char* title, int trials, std::initializer_list<int> targets, Adj
 
 void basin(int trials) {
   print_header("prior far off, 0.3 m, N = 20");
-  for (const double degrees : {20.0, 40.0, 60.0, 90.0}) {
-    RigProblemOptions options;
-    options.prior_rotation_deg = degrees;
-    options.prior_position = 0.3;
-    char name[64];
-    std::snprintf(name, sizeof name, "prior off by %.0f deg", degrees);
-    run(name, options, trials, [](const RigProblem& problem, std::span<std::uint8_t> used) {
-      return solve_pose_or_find(problem.sights, problem.prior, {}, used);
-    });
+  for (const bool trusted : {false, true}) {
+    for (const double degrees : {20.0, 40.0, 60.0, 90.0}) {
+      RigProblemOptions options;
+      options.prior_rotation_deg = degrees;
+      options.prior_position = 0.3;
+      SolveOptions solve;
+      if (trusted) solve.prior_rotation_sigma = degrees * std::numbers::pi / 180 / std::sqrt(3.0);
+      char name[64];
+      std::snprintf(name, sizeof name, "prior off by %.0f deg%s", degrees, trusted ? ", sigma told" : "");
+      run(name, options, trials, [&](const RigProblem& problem, std::span<std::uint8_t> used) {
+        return solve_pose_or_find(problem.sights, problem.prior, solve, used);
+      });
+    }
   }
 }
 

@@ -39,8 +39,7 @@ double OddsBin::sigma() const {
 std::vector<OddsBin> odds_come_true(const RigProblemOptions& options, std::uint64_t first_seed, int trials,
                                     bool uniform) {
   std::vector<OddsBin> bins;
-  for (const double edge : {1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 1.0})
-    bins.push_back({.edge = edge});
+  for (const double edge : {1e-4, 1e-3, 1e-2, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5}) bins.push_back({.edge = edge});
   for (int trial = 0; trial < trials; ++trial) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(trial);
     const RigProblem problem = make_rig_problem(options, seed);

@@ -10,6 +10,7 @@
 #include "components/approach/approach_estimate.hpp"
 #include "components/approach/approach_parameters.hpp"
 #include "components/approach/body_light.hpp"
+#include "components/approach/light_candidates.hpp"
 #include "components/approach/light_doubt.hpp"
 #include "components/approach/photometric_zero.hpp"
 #include "components/attitude/attitude_estimate.hpp"
@@ -71,7 +72,8 @@ class Approach final : public Component, public CommandReceiver {
     RangeModes modes;
     bool followed = false;
     bool seen = false;
-    bool summed = false;  // ExpectedLight::summed
+    double summed = 0;                               // ExpectedLight::summed
+    Eigen::Matrix3d pull = Eigen::Matrix3d::Zero();  // of stars beside its dots, a running mean [rad²]
     double snr = 0;
     double flux = 0;  // of its brightest camera, when it was seen last [grey levels]
     LightDoubt doubt;
@@ -84,18 +86,27 @@ class Approach final : public Component, public CommandReceiver {
   void learn_zero() noexcept;
   void predict(double seconds) noexcept;
   const PoseEstimate* pose_of(const Followed& body) const noexcept;
+  void look_at_candidates() noexcept;
+  CandidateLight light_of(const UnknownObject& object) const noexcept;
+  const LightCandidate* likeliest(const Followed& body) const noexcept;
+  const UnknownObject* object_of(std::uint32_t number) const noexcept;
   void choose_light(Followed& body) noexcept;
-  const UnknownObject* brightest(const Followed& body) const noexcept;
   void follow(Followed& body, const UnknownObject& light) noexcept;
   void look_again(Followed& body) noexcept;
   bool is_free(std::uint32_t object) const noexcept;
+  bool is_followed(std::uint32_t object) const noexcept;
   void see_pose(Followed& body, const PoseEstimate& pose) noexcept;
   void see_targets(Followed& body, const Eigen::Vector3d& position) noexcept;
+  double sky_pull(const PoseEstimate& pose) const noexcept;
   ExpectedLight expected(const Followed& body) const noexcept;
+  double off_axis(const Eigen::Vector3d& direction, std::size_t camera) const noexcept;
   void see_light(Followed& body) noexcept;
   Looked look(const ExpectedLight& expected, std::size_t camera, LightSighting& out) noexcept;
-  void find_stars(const ExpectedLight& expected, std::size_t camera) noexcept;
-  void see_brightness(Followed& body, std::size_t camera, const LightSighting& sighting) noexcept;
+  void find_stars(const Eigen::Vector3d& direction, double reach_px, std::size_t camera) noexcept;
+  Eigen::Matrix3d pull_of_stars(const Eigen::Vector3d& direction, double flux, std::size_t camera) noexcept;
+  double sky_behind(const Followed& body, std::size_t camera, double background, double zero) const noexcept;
+  void see_brightness(Followed& body, std::size_t camera, const LightSighting& sighting,
+                      bool looked_for) noexcept;
   void lose(Followed& body) noexcept;
   void tell(const Followed& body, const PoseEstimate* pose, ApproachEstimate& out) const noexcept;
 
@@ -104,11 +115,13 @@ class Approach final : public Component, public CommandReceiver {
   const StarCatalogue& catalogue_;
   std::span<const TargetBody> bodies_;
   double floor_px_;
+  double finest_pixel_ = 1;  // of all cameras [rad]
   std::array<PhotometricZero, limits::kCameras> zeros_;
   std::array<float, StarCatalogue::kCapacity> magnitudes_{};  // by HR number
   std::vector<Followed> followed_;                            // filled once, at construction
   LightSightings sightings_;
   StaticVector<StarNearby, 32> stars_;
+  LightCandidates candidates_;
   Eigen::Matrix3d rig_from_j2000_ = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d attitude_covariance_ = Eigen::Matrix3d::Zero();  // J2000
   TimeNs time_ns_ = 0;

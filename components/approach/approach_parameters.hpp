@@ -27,6 +27,7 @@ struct ApproachParameters {
   double largest_rate = 0.05;                          ///< of a light against the stars [rad/s]
   double largest_sigma = 0.02;                         ///< a light known worse than this is lost [rad]
   int patience = 20;                                   ///< frame sets in a row a light may be missed
+  int candidates = 4;                                  ///< lights followed at once until one is chosen
 };
 
 }  // namespace omma

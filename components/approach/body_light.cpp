@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "components/geometry/pose.hpp"
 #include "components/geometry/rig_dot.hpp"
@@ -25,8 +24,10 @@ double angular_radius(const ExpectedLight& expected) noexcept {
 
 struct Sum {
   double flux = 0;
-  double variance = 0;                            // of noise
-  double unsure = 0;                              // variance of the rest
+  double variance = 0;    // of noise
+  double unsure = 0;      // variance of the rest
+  double background = 0;  // about its brightest dot
+  double brightest = 0;
   Eigen::Vector3d ray = Eigen::Vector3d::Zero();  // rig, weighted with flux
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   bool whole = true;
@@ -41,29 +42,39 @@ LightSighting sighting(const Sum& sum, const RigCamera& camera, const Eigen::Mat
   out.flux = sum.flux;
   out.flux_sigma = std::sqrt(sum.variance);
   out.unsure = std::sqrt(sum.unsure);
+  out.background = sum.background;
   const Eigen::Vector3d ray = sum.ray.normalized();
   const Eigen::Vector3d origin = camera.rig_from_camera.translation;
   const Eigen::Vector3d axis = camera.rig_from_camera.rotation * Eigen::Vector3d::UnitZ();
   out.axis_angle = std::acos(std::clamp(axis.dot(ray), -1.0, 1.0));
   out.direction = rig_from_j2000.transpose() * (expected.range * ray + origin).normalized();
   const double parallax = origin.cross(ray).norm() / expected.range * std::min(expected.log_range_sigma, 1.0);
-  const Eigen::Matrix3d covariance =
-      sum.covariance / square(sum.flux) + square(parallax) * Eigen::Matrix3d::Identity();
-  out.whitener = direction_whitener(out.direction, covariance);
+  out.covariance = sum.covariance / square(sum.flux) + square(parallax) * Eigen::Matrix3d::Identity();
+  out.whitener = direction_whitener(out.direction, out.covariance);
   return out;
 }
 
 }  // namespace
 
+void widen(LightSighting& sighting, const Eigen::Matrix3d& more) noexcept {
+  sighting.covariance += more;
+  sighting.whitener = direction_whitener(sighting.direction, sighting.covariance);
+}
+
 double centre_variance(const ExpectedLight& expected) noexcept {
   constexpr double kUnlike = 0.3;  // of the brightness of one light, as it is seen
-  constexpr double kPart =
-      0.7;  // of the spread: where a dot's centre may be, of those that are bright together
+  // Of the spread: where a dot's centre may be, of those that are bright together; and where they part.
+  constexpr double kPart = 0.3;
+  constexpr double kParted = 0.7;
+  constexpr double kParting = 1.5;  // radius [px]; at twice that they have
   const double known = std::min(expected.log_range_sigma, 1.0);
-  const double nearest = expected.range * std::exp(-known);
   const BodySize& size = expected.size;
-  const double part = expected.summed ? kUnlike * size.spread / std::sqrt(size.targets) : kPart * size.spread;
-  return (square(size.centre) + square(part)) / (3 * square(nearest));
+  const double apart = size.radius / expected.range / (kParting * expected.pixel) - 1;
+  const double of_dot = kPart + (kParted - kPart) * std::clamp(apart, 0.0, 1.0);
+  const double of_sum = kUnlike / std::sqrt(size.targets);
+  const double part = (of_dot + expected.summed * (of_sum - of_dot)) * size.spread;
+  // Mean of 1 / r² where ln r is known so well.
+  return (square(size.centre) + square(part)) * std::exp(2 * known * known) / (3 * square(expected.range));
 }
 
 BodySize size_of(const TargetBody& body) {
@@ -101,7 +112,11 @@ void find_light(std::span<const LeftoverDot> dots, const DotLists& lists, const 
     sum.variance += square(dot.flux / dot.snr);
     sum.ray += dot.flux * dot.ray;
     sum.covariance += square(dot.flux) * direction_covariance(dot);
-    sum.whole = sum.whole && (lists.cameras[dot.camera].dots[dot.dot].flags & kDotSaturated) == 0;
+    const Dot& seen = lists.cameras[dot.camera].dots[dot.dot];
+    sum.whole = sum.whole && (seen.flags & kDotSaturated) == 0;
+    if (double(dot.flux) <= sum.brightest) continue;
+    sum.brightest = dot.flux;
+    sum.background = seen.background;
   }
   for (std::size_t c = 0; c < out.size(); ++c) {
     out[c] = {};
@@ -121,20 +136,6 @@ double aperture_radius(const ExpectedLight& expected, const RigCamera& camera) n
 }
 
 namespace {
-
-// The level round the circle holds the sky's light, of which the body hides a part: how much of the circle
-// about its lights it fills, and how dark it is itself, is not known.
-void add_hidden_sky(const Dot& dot, const Aperture& aperture, const ExpectedLight& expected,
-                    const RigCamera& camera, Sum& sum) noexcept {
-  constexpr double kHidden = 0.6;
-  constexpr double kHiddenSigma = 0.35;
-  const double sky = std::max(dot.background - aperture.black_level, 0.0);
-  const double radius = expected.size.radius / expected.range / camera.lens.pixel_angle();
-  const double light = sky * std::numbers::pi * radius * radius;
-  sum.ray *= 1 + kHidden * light / sum.flux;  // from about its middle
-  sum.flux += kHidden * light;
-  sum.unsure += square(kHiddenSigma * light);
-}
 
 // A star's light is known to a part, and near the circle's edge not how much of it is inside.
 double take_away(const StarNearby& star, const RigCamera& camera, const Aperture& aperture,
@@ -162,7 +163,7 @@ Looked look_at_light(const ImageView& image, const RigCamera& camera, std::uint8
                      const Aperture& told, std::span<const StarNearby> stars, double floor_px,
                      const Eigen::Matrix3d& rig_from_j2000, const ExpectedLight& expected,
                      LightSighting& out) noexcept {
-  constexpr double kMostOfStars = 0.1;  // of the light in the circle
+  constexpr double kMostOfStars = 0.5;  // of the light in the circle
   Aperture aperture = told;
   aperture.radius = aperture_radius(expected, camera);
   const Eigen::Vector3d place = expected.range * (rig_from_j2000 * expected.direction);
@@ -181,7 +182,7 @@ Looked look_at_light(const ImageView& image, const RigCamera& camera, std::uint8
   sum.ray = dot.flux * seen.ray;
   sum.covariance = square(dot.flux) * direction_covariance(in_sky);
   sum.whole = (dot.flags & kDotSaturated) == 0;
-  add_hidden_sky(dot, aperture, expected, camera, sum);
+  sum.background = dot.background;
   double of_stars = 0;
   for (const StarNearby& star : stars) of_stars += take_away(star, camera, aperture, rig_from_j2000, sum);
   if (of_stars > kMostOfStars * dot.flux) return Looked::kAmongStars;

@@ -30,9 +30,11 @@ struct LightSighting {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitX();  ///< of the body's origin from the rig's, unit, J2000
   /// 2×3: whitens the difference of a direction and this one; of the dots
   Eigen::Matrix<double, 2, 3> whitener = Eigen::Matrix<double, 2, 3>::Zero();
-  double flux = 0;        ///< of all its dots [grey levels]
-  double flux_sigma = 0;  ///< of noise [grey levels]
-  double unsure = 0;      ///< of what is not noise: hidden sky, stars taken away [grey levels]
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the direction, J2000 [rad²]
+  double flux = 0;                                       ///< of all its dots [grey levels]
+  double flux_sigma = 0;                                 ///< of noise [grey levels]
+  double unsure = 0;      ///< of what is not noise: stars taken away [grey levels]
+  double background = 0;  ///< level about it, in a pixel [grey levels]
   bool whole = true;      ///< no pixel was full, so that the flux is all of it
   double axis_angle = 0;  ///< from the camera's optical axis [rad]
 };
@@ -43,7 +45,8 @@ struct ExpectedLight {
   double range = 1;                                      ///< [m]
   double log_range_sigma = 3;
   BodySize size;
-  bool summed = false;  ///< all its light was added up when it was seen last; else dots were looked at
+  double pixel = 1e-3;  ///< of the camera that sees finest [rad]
+  double summed = 0;  ///< share of its sightings of late for which all its light was added up; the rest: dots
 };
 
 /// Where the centre of light may be from the body's origin, of each axis across the line of sight [rad²]: the
@@ -53,6 +56,9 @@ double centre_variance(const ExpectedLight& expected) noexcept;
 
 /// The range is known well enough to say how large the body looks: σ of ln range.
 inline constexpr double kRangeKnown = 0.7;
+
+/// Its direction is off by that much more.
+void widen(LightSighting& sighting, const Eigen::Matrix3d& more) noexcept;
 
 using LightSightings = std::array<LightSighting, limits::kCameras>;
 
@@ -81,7 +87,7 @@ enum class Looked : std::uint8_t {
 /// The same of all light in the image where the body is expected, where it is more than a dot.
 /// @param image  grey levels that rise evenly with light
 /// @param stars  near the circle: their light is taken away
-/// @param told   `noise`, `black_level` and `gain` of the image; the rest is found
+/// @param told   `noise` and `gain` of the image; the rest is found
 Looked look_at_light(const ImageView& image, const RigCamera& camera, std::uint8_t index,
                      const Aperture& told, std::span<const StarNearby> stars, double floor_px,
                      const Eigen::Matrix3d& rig_from_j2000, const ExpectedLight& expected,

@@ -13,7 +13,6 @@ struct Aperture {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< [px]
   double radius = 3;                                 ///< [px]; at most kLargest is used
   double noise = 1;                                  ///< of a dark pixel [grey levels]
-  double black_level = 0;                            ///< of no light [grey levels]
   double gain = 1;  ///< [electrons a grey level]; 0: light has no noise of its own
 
   static constexpr double kLargest = 40;

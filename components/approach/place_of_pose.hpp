@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "components/geometry/root_sum_square.hpp"
 #include "components/pose/pose_estimate.hpp"
 
 namespace omma {
@@ -14,13 +15,15 @@ struct PlaceOfPose {
   Eigen::Matrix3d covariance;  ///< of the direction, across it [rad²]; calibration included
 };
 
-inline PlaceOfPose place_of(const PoseEstimate& pose) noexcept {
+/// @param size_error  of the body as it is seen, relative, σ: goes into the range
+inline PlaceOfPose place_of(const PoseEstimate& pose, double size_error) noexcept {
   PlaceOfPose place;
   const Eigen::Vector3d& position = pose.solution.rig_from_body.translation;
   const Eigen::Matrix3d covariance = pose.integrity.rig.covariance.bottomRightCorner<3, 3>();
   place.range = position.norm();
   place.direction = position / place.range;
-  place.range_sigma = std::sqrt(place.direction.dot(covariance * place.direction));
+  place.range_sigma =
+      root_sum_square(std::sqrt(place.direction.dot(covariance * place.direction)), size_error * place.range);
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - place.direction * place.direction.transpose();
   place.covariance = across * covariance * across / (place.range * place.range);
   return place;

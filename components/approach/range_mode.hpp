@@ -17,8 +17,8 @@ enum class RangeMode : std::uint8_t {
 };
 
 struct RangeModeParameters {
-  double range_sigma_enter = 0.20;  ///< of ln range: range is told where it is known better ...
-  double range_sigma_leave = 0.30;  ///< ... and no more where worse
+  double range_sigma_enter = 0.25;  ///< of ln range: range is told where it is known better ...
+  double range_sigma_leave = 0.35;  ///< ... and no more where worse
   double snr_enter = 10;  ///< of the light: what is found near the threshold only is found too bright
   double snr_leave = 7;
   int settle = 3;    ///< frame sets in a row before a mode is entered

@@ -1,6 +1,7 @@
 #include "components/surveillance/object_state.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace omma {
@@ -15,12 +16,15 @@ void ObjectState::start(const Eigen::Vector3d& direction, const Eigen::Matrix3d&
   stay_on_sphere();
 }
 
-void ObjectState::predict(double seconds, double acceleration_sigma) noexcept {
-  const Eigen::Matrix3d turn = rotation_exp(seconds * direction_.cross(velocity_)).toRotationMatrix();
+void ObjectState::predict(double seconds, double acceleration_sigma, double closing) noexcept {
+  const double farther = std::max(1 + closing * seconds, 0.2);  // range then over range now
+  const double span = seconds / farther;
+  const double slower = 1 / (farther * farther);
+  const Eigen::Matrix3d turn = rotation_exp(span * direction_.cross(velocity_)).toRotationMatrix();
   direction_ = turn * direction_;
-  velocity_ = turn * velocity_;
+  velocity_ = slower * (turn * velocity_);
   Matrix6d transition;
-  transition << turn, seconds * turn, Eigen::Matrix3d::Zero(), turn;
+  transition << turn, span * turn, Eigen::Matrix3d::Zero(), slower * turn;
   covariance_ = transition * covariance_ * transition.transpose();
   const double variance = acceleration_sigma * acceleration_sigma;
   const double t2 = seconds * seconds;

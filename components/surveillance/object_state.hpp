@@ -28,7 +28,9 @@ class ObjectState {
              double velocity_sigma) noexcept;
 
   /// @param acceleration_sigma  not modelled, across the line of sight [rad/s²]
-  void predict(double seconds, double acceleration_sigma) noexcept;
+  /// @param closing             range rate over range, where it is known [1/s]: what comes nearer at an even
+  ///                            velocity turns faster
+  void predict(double seconds, double acceleration_sigma, double closing = 0) noexcept;
 
   /// @param whitener_in_j2000  2×3, of the dot: whitens the difference of a direction and the dot's
   /// @param common             covariance of what all dots of the frame set share (attitude), small rotation,

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <string>
 
+#include "components/approach/light_candidates.hpp"
 #include "components/approach/photometric_zero.hpp"
 
 namespace omma {
@@ -29,6 +30,8 @@ void read_approach(const TomlTable& table, ApproachParameters& parameters) {
   m.snr_leave = table.number("snr_leave", {1, 1000}, m.snr_leave);
   m.settle = static_cast<int>(table.integer("settle", {1, 1000}, m.settle));
   m.patience = static_cast<int>(table.integer("patience", {1, 1000}, m.patience));
+  parameters.candidates = static_cast<int>(
+      table.integer("candidates", {1, std::int64_t{LightCandidates::kMost}}, parameters.candidates));
   if (m.range_sigma_leave < m.range_sigma_enter) {
     throw table.error("range_sigma_leave",
                       "no less than range_sigma_enter, " + std::to_string(m.range_sigma_enter),

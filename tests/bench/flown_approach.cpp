@@ -41,7 +41,10 @@ FlownApproach fly_approach(const sim::Scenario& scenario, const Mission& mission
     const Eigen::Vector3d truth = sim::scene_at(scenario, scenario.time_of(f)).rig_from_body[0].translation;
     const double bearing = add(flown.modes[estimate.mode], estimate, truth);
     const double off = std::acos(std::min(1.0, estimate.direction.dot(truth.normalized())));
-    flown.wrong += bearing > 100 && off > 0.5 * M_PI / 180 ? 1 : 0;
+    const bool wrong = bearing > 100 && off > 0.5 * M_PI / 180;
+    flown.wrong += wrong ? 1 : 0;
+    if (wrong) flown.right_range = 0;
+    if (!wrong && flown.right_range == 0) flown.right_range = truth.norm();
     if (flown.first_range == 0) flown.first_range = truth.norm();
     if (estimate.mode == RangeMode::kIntermediate && flown.intermediate_from == 0)
       flown.intermediate_from = truth.norm();

@@ -17,8 +17,9 @@ struct OfOneMode {
 
 struct FlownApproach {
   std::map<RangeMode, OfOneMode> modes;
-  int steps_back = 0;  ///< frame sets with a farther mode than the one before
-  int wrong = 0;       ///< frame sets whose bearing is 10 σ and half a degree off: of something else
+  int steps_back = 0;      ///< frame sets with a farther mode than the one before
+  int wrong = 0;           ///< frame sets whose bearing is 10 σ and half a degree off: of something else
+  double right_range = 0;  ///< from here on nothing else was followed [m]; 0: never
   double first_range = 0, intermediate_from = 0, close_from = 0;  ///< [m]; 0: never
   double last_magnitude_sigma = 0;
   std::uint64_t allocations = 0;

@@ -1,8 +1,8 @@
 // What the bend of a flat card's cost adds to its covariance. Seen nearly frontally a card's tilt is known by
 // the square of what it does to the image: the curvature of the cost at its minimum tells neither how far it
 // rises on the way to the mirror image nor that the other unknowns bend with the tilt.
-// Sources: Box & Tidwell's and Bates & Watts' profiles of nonlinear least squares (Bates & Watts 1988, ch.
-// 6); Julier & Uhlmann 2004 (moments from a few points). docs/algorithms/estimation.md.
+// Sources: Bates & Watts 1988, ch. 6 (profiles of nonlinear least squares); Julier & Uhlmann 2004 (moments
+// from a few points). docs/algorithms/estimation.md.
 #pragma once
 
 #include "components/estimation/fit.hpp"

@@ -16,6 +16,11 @@ std::uint16_t star_limit(double place, double fraction, std::size_t stars) noexc
   return static_cast<std::uint16_t>(std::min(kSlack * (place + kStart) / fraction, double(stars)));
 }
 
+float magnitude(float flux) noexcept {
+  constexpr float kDarkest = 1e-3F;  // [grey levels]
+  return -2.5F * std::log10(std::max(flux, kDarkest));
+}
+
 double fraction_seen(const SkyCoverage& coverage, std::uint8_t camera) noexcept {
   if (camera >= coverage.solid_angle.size()) return 1;
   return std::clamp(coverage.solid_angle[camera] / (4 * std::numbers::pi), 1e-4, 1.0);
@@ -68,8 +73,8 @@ std::span<const SearchDot> SearchOrder::arrange(std::span<const RigDot> dots, co
   arranged_.clear();
   for (const Key& key : keys_) {
     const RigDot& dot = dots[key.dot];
-    arranged_.push_back(
-        {dot.ray, widening * widening * dot.sigma * dot.sigma, key.faintest, key.dot, dot.camera});
+    arranged_.push_back({dot.ray, widening * widening * dot.sigma * dot.sigma, magnitude(dot.flux),
+                         key.faintest, key.dot, dot.camera});
   }
   return arranged_;
 }

@@ -1,6 +1,6 @@
 // Search order: the dots in the order in which identification looks at them, and which stars each may be.
-// Brightness is used softly: only the order within each camera, never the flux (photographs saturate, lenses
-// vignette, cameras differ).
+// Brightness is used softly: the order within each camera (photographs saturate, lenses vignette, cameras
+// differ); where dots are few, sparse_sky.hpp looks at the flux too.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 #include <span>
 
 #include "components/geometry/rig_dot.hpp"
+#include "components/tracker/search_dot.hpp"
 #include "components/tracker/sky_coverage.hpp"
-#include "components/tracker/sky_evidence.hpp"
 
 namespace omma {
 

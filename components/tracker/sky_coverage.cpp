@@ -46,6 +46,7 @@ SkyCoverage sky_coverage(const Rig& rig, std::span<const PixelMask> masks) {
         if (sparse) rays.push_back(camera.rig_from_camera.rotation * ray);
       }
     }
+    coverage.fields.push_back(FieldMap(camera, masked ? &masks[c] : nullptr));
     coverage.solid_angle.push_back(std::min(solid_angle, 4 * std::numbers::pi));
     coverage.camera_angle = std::max(coverage.camera_angle, largest_angle(rays));
     for (std::size_t i = 0; i < rays.size(); i += 3) rig_rays.push_back(rays[i]);

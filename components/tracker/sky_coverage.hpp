@@ -6,6 +6,7 @@
 
 #include "components/geometry/rig.hpp"
 #include "components/sensor/pixel_mask.hpp"
+#include "components/tracker/field_map.hpp"
 
 namespace omma {
 
@@ -13,6 +14,7 @@ struct SkyCoverage {
   StaticVector<double, limits::kCameras> solid_angle;  ///< of each camera [sr], at most 4π
   double camera_angle = 0;  ///< largest angle between two directions in one camera [rad], at most π
   double rig_angle = 0;     ///< the same in the whole rig
+  StaticVector<FieldMap, limits::kCameras> fields;  ///< of each camera
 };
 
 /// Measured on the lenses themselves, on a grid of pixels (start-up only). Solid angles to about 1 %.

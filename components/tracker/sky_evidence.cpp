@@ -20,8 +20,10 @@ constexpr double kGiveUp = 0.05;
 
 }  // namespace
 
-void SkyEvidence::rest_on(std::span<const SearchDot> dots, std::size_t first, std::size_t second) noexcept {
+void SkyEvidence::rest_on(std::span<const SearchDot> dots, const SparseSky& sparse, std::size_t first,
+                          std::size_t second) noexcept {
   dots_ = dots;
+  sparse_ = sparse.is_sparse() ? &sparse : nullptr;
   first_ = first;
   second_ = second;
   prepared_ = 0;
@@ -49,6 +51,15 @@ SkyEvidence::Witness SkyEvidence::witness(const SearchDot& dot) const noexcept {
           (1 - kGaussianPart) / (std::numbers::pi * gate * gate * chance)};
 }
 
+double SkyEvidence::density(const EvidenceMatch& match, double distance2,
+                            const Eigen::Matrix3d& j2000_from_rig) const noexcept {
+  const Witness& w = witnesses_[match.search_dot];
+  const double density = w.peak * std::exp(-distance2 * w.half_inverse) + w.floor;
+  if (sparse_ == nullptr) return density;
+  const double rivals = sparse_->rivals(match, matches_, j2000_from_rig);
+  return density * std::max<double>(dots_[match.search_dot].faintest, 1) / (4 * std::numbers::pi * rivals);
+}
+
 double SkyEvidence::weigh(const Eigen::Matrix3d& j2000_from_rig, std::uint16_t first_star,
                           std::uint16_t second_star, double accept) noexcept {
   const auto stars = catalogue_.stars();
@@ -70,7 +81,7 @@ double SkyEvidence::weigh(const Eigen::Matrix3d& j2000_from_rig, std::uint16_t f
       witnesses_[k] = witness(dots_[k]);
       prepared_ = n + 1;
     }
-    if (k == first_ || k == second_) continue;
+    if (k == first_ || k == second_ || (sparse_ != nullptr && sparse_->repeated(k))) continue;
     const Witness& w = witnesses_[k];
     const Eigen::Vector3d direction = j2000_from_rig * dots_[k].ray;
     double nearest = w.gate * w.gate;
@@ -82,20 +93,21 @@ double SkyEvidence::weigh(const Eigen::Matrix3d& j2000_from_rig, std::uint16_t f
       nearest = distance2;
       star = static_cast<int>(s);
     });
-    double density = 0;  // of finding the dot where it is, over the density of chance
+    double found = 0;
     if (star >= 0) {
-      density = w.peak * std::exp(-nearest * w.half_inverse) + w.floor;
-      claimed_by_[static_cast<std::size_t>(star)] = stamp_;
-      matches_.push_back({static_cast<std::uint16_t>(k), static_cast<std::uint16_t>(star)});
+      const EvidenceMatch match{static_cast<std::uint16_t>(k), static_cast<std::uint16_t>(star)};
+      found = density(match, nearest, j2000_from_rig);
+      claimed_by_[match.star] = stamp_;
+      matches_.push_back(match);
     }
     double sum = 0;
     for (std::size_t q = 0; q < kShares.size(); ++q) {
-      ratio[q] *= (1 - kShares[q]) + kShares[q] * density;
+      ratio[q] *= (1 - kShares[q]) + kShares[q] * found;
       sum += ratio[q];
     }
     best = sum / kShares.size();
     if (best >= accept) return best;
-    if (ratio[kMiddle] < kGiveUp) return best;
+    if (ratio[kMiddle] < kGiveUp && sparse_ == nullptr) return best;
   }
   return best;
 }

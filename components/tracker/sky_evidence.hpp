@@ -10,23 +10,11 @@
 #include <span>
 
 #include "components/catalogue/star_catalogue.hpp"
+#include "components/tracker/search_dot.hpp"
+#include "components/tracker/sparse_sky.hpp"
 #include "fsw/kernel/static_vector.hpp"
 
 namespace omma {
-
-/// A dot as identification uses it. In the order of the search: the likeliest bright stars first.
-struct SearchDot {
-  Eigen::Vector3d ray = Eigen::Vector3d::UnitZ();  ///< unit bearing, rig frame
-  double variance = 0;                             ///< of the bearing, per axis [rad²]
-  std::uint16_t faintest = 0;                      ///< it may be one of the stars with an index below this
-  std::uint16_t index = 0;                         ///< in the caller's span
-  std::uint8_t camera = 0;
-};
-
-struct EvidenceMatch {
-  std::uint16_t search_dot;
-  std::uint16_t star;  ///< index in StarCatalogue::stars()
-};
 
 class SkyEvidence {
  public:
@@ -37,7 +25,9 @@ class SkyEvidence {
 
   /// The two dots that the next hypotheses rest on; they fix how well an attitude made from them predicts the
   /// others.
-  void rest_on(std::span<const SearchDot> dots, std::size_t first, std::size_t second) noexcept;
+  /// @param sparse  has looked at these dots
+  void rest_on(std::span<const SearchDot> dots, const SparseSky& sparse, std::size_t first,
+               std::size_t second) noexcept;
 
   /// Weighs the attitude in which the two dots are the stars `first_star` and `second_star`.
   /// @param accept  likelihood ratio at which to stop
@@ -58,8 +48,13 @@ class SkyEvidence {
 
   Witness witness(const SearchDot& dot) const noexcept;
 
+  /// Density of finding the dot where it is, over the density of chance; 0: it is no star that is to be seen.
+  double density(const EvidenceMatch& match, double distance2,
+                 const Eigen::Matrix3d& j2000_from_rig) const noexcept;
+
   const StarCatalogue& catalogue_;
   std::span<const SearchDot> dots_;
+  const SparseSky* sparse_ = nullptr;
   std::size_t first_ = 0;
   std::size_t second_ = 0;
   Eigen::Matrix3d axes_ =

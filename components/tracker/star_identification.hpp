@@ -19,6 +19,7 @@
 #include "components/tracker/search_order.hpp"
 #include "components/tracker/sky_coverage.hpp"
 #include "components/tracker/sky_evidence.hpp"
+#include "components/tracker/sparse_sky.hpp"
 #include "components/tracker/star_matching.hpp"
 #include "components/tracker/star_pairs.hpp"
 #include "config/limits.hpp"
@@ -86,21 +87,33 @@ class StarIdentification {
   struct Pass {
     DotOrder order;
     double widening;  // of every dot's sigma, for lenses worse than they say
-    double share;     // of the hypothesis limit
+    double work;      // part of the hypothesis limit
+    double part;      // of the probability of a false match
+  };
+  struct DotPair {
+    std::size_t first;  // in the order of the search
+    std::size_t second;
+    double part;  // of the probability of a false match
   };
 
   bool search(std::span<const RigDot> dots, const Pass& pass, double until, Identification& result) noexcept;
-  bool try_pair(std::span<const SearchDot> order, std::size_t i, std::size_t k, double until,
+  bool try_pair(std::span<const SearchDot> order, const DotPair& pair, double until,
                 Identification& result) noexcept;
-  bool take(std::span<const SearchDot> order, double ratio, Identification& result) noexcept;
+  template <class Visit>
+  bool each_hypothesis(std::span<const SearchDot> order, const DotPair& pair,
+                       std::span<const StarPair> candidates, Visit&& visit) noexcept;
+  double weigh_hypotheses(std::span<const SearchDot> order, const DotPair& pair,
+                          std::span<const StarPair> candidates) noexcept;
+  double weight_of(std::size_t hypothesis) const noexcept;
+  bool take(std::span<const SearchDot> order, double ratio, double part, Identification& result) noexcept;
   bool mirrored(std::span<const RigDot> dots, Identification& result) noexcept;
-  double ratio_to_accept(std::uint32_t hypothesis) const noexcept;
 
   const StarCatalogue& catalogue_;
   SkyCoverage coverage_;
   IdentificationParameters parameters_;
   StarPairs pairs_;
   SearchOrder order_;
+  SparseSky sparse_;
   SkyEvidence evidence_;
   StarMatching matching_;
   std::array<RigDot, limits::kDotsPerCamera> mirror_;
@@ -110,10 +123,13 @@ class StarIdentification {
   struct Prior {
     Eigen::Matrix3d weight;
     double least;
+    double fraction;  // of all attitudes that it lets pass
   };
   void identify_aided(const Prior& prior, std::span<const RigDot> dots, Identification& result) noexcept;
   bool search_all(std::span<const RigDot> dots, double limit, Identification& result) noexcept;
   std::optional<Prior> prior_;
+  std::array<double, 4096> weights_{};  // of the first hypotheses of two dots
+  std::size_t weighed_ = 0;
   double tried_ = 0;  // hypotheses and the table entries looked at for them, in units of one hypothesis
 };
 

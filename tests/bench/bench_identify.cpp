@@ -1,5 +1,6 @@
 // Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes, and false
 // answers in skies of false dots alone. A wrong answer makes the exit code 1.
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numbers>
@@ -73,12 +74,20 @@ int run(const Case& c, int trials, const IdentificationParameters& parameters) {
   return wrong;
 }
 
+struct NothingThere {
+  const char* name;
+  Rig rig;
+  double resolution_deg;
+  int least, most;  // dots over the sphere, or in the one camera
+  double noise_px;  // to five times this
+};
+
 // @return answers, all of them wrong
-int run_nothing_there(int trials) {
-  const Rig rig = equidistant_rig(3, 122);
+int run_nothing_there(const NothingThere& c, int trials, const IdentificationParameters& parameters) {
   const auto catalogue =
-      std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, 0.25 * kDegree});
-  const auto identification = std::make_unique<StarIdentification>(*catalogue, sky_coverage(rig));
+      std::make_unique<StarCatalogue>(Observer{}, StarCatalogueParameters{6.5F, c.resolution_deg * kDegree});
+  const auto identification =
+      std::make_unique<StarIdentification>(*catalogue, sky_coverage(c.rig), parameters);
   const auto answer = std::make_unique<Identification>();
   std::mt19937_64 random(2010);
   std::vector<double> times;
@@ -86,19 +95,22 @@ int run_nothing_there(int trials) {
   int answers = 0;
   SkyProblemOptions options;
   options.stars_per_camera = 1;
+  if (c.rig.cameras.size() == 1) options.magnitude_limit = 6.5F;
   for (int trial = 0; trial < trials; ++trial) {
-    options.false_on_sphere = 5 + static_cast<int>(random() % 300);
-    options.noise_px = 0.1 + 0.1 * double(random() % 5);
-    SkyProblem problem = random_sky(rig, catalogue->stars(), options, random);
+    const int dots = c.least + static_cast<int>(random() % static_cast<unsigned>(c.most - c.least));
+    (c.rig.cameras.size() == 1 ? options.false_dots : options.false_on_sphere) = dots;
+    options.noise_px = c.noise_px * (1 + double(random() % 5));
+    SkyProblem problem = random_sky(c.rig, catalogue->stars(), options, random);
     std::erase_if(problem.dots, [&](const RigDot& dot) { return problem.hr[dot.index] != 0; });
     times.push_back(cpu_microseconds([&] { identification->identify(problem.dots, *answer); }));
     answers += answer->status == IdentificationStatus::kIdentified ||
                answer->status == IdentificationStatus::kMirrored;
     hypotheses.push_back(answer->hypotheses);
   }
-  std::printf("%-46s %6d answers %d; cpu us med %.0f max %.0f; hypotheses med %.0f max %.0f\n",
-              "5 to 300 false dots alone, 0.1 to 0.5 px", trials, answers, quantile(times, 0.5),
-              quantile(times, 1.0), quantile(hypotheses, 0.5), quantile(hypotheses, 1.0));
+  std::printf("%-46s %6d answers %d; cpu us med %.0f max %.0f; hypotheses med %.0f max %.0f\n", c.name,
+              trials, answers, quantile(times, 0.5), quantile(times, 1.0), quantile(hypotheses, 0.5),
+              quantile(hypotheses, 1.0));
+  std::fflush(stdout);
   return answers;
 }
 
@@ -109,11 +121,14 @@ int bench_identify(Options& options) {
   int trials = 200;
   int row = 0;
   int false_skies = 0;
+  int bound = 7;
   auto limit = static_cast<int>(parameters.hypothesis_limit);
   options.add("--trials", trials, "attitudes of a row; 10000 for the full table");
   options.add("--row", row, "that one alone, by its number; 0: all", 0);
   options.add("--false-skies", false_skies, "skies of false dots alone; 0: as many as trials", 0);
   options.add("--limit", limit, "hypotheses tried of a sky");
+  options.add("--bound", bound,
+              "10 to the power of minus this: probability of a false match; with 1 or 2 some happen");
   options.read();
   std::printf("%-46s %6s %5s %5s %8s %6s %8s %8s %8s %8s %8s\n", "identify", "trials", "dots", "least",
               "solved%", "wrong", "cpu us", "p99", "max", "hyp med", "hyp max");
@@ -161,12 +176,21 @@ int bench_identify(Options& options) {
       {"3 x 122 deg, 80 % of the dots false, 0.2 px", three, {.noise_px = 0.2, .false_fraction = 0.8}, 0.25},
   };
   parameters.hypothesis_limit = static_cast<std::uint32_t>(limit);
+  parameters.false_match_probability = std::pow(10.0, -bound);
   int number = 0;
   int wrong = 0;
   for (const Case& c : cases) {
     if (++number == row || row == 0) wrong += run(c, trials, parameters);
   }
-  if (row == 0 || row > number) wrong += run_nothing_there(false_skies > 0 ? false_skies : trials);
+  const NothingThere skies[] = {
+      {"5 to 300 false dots alone, 0.1 to 0.5 px", three, 0.25, 5, 305, 0.1},
+      {"1 x 10 deg, 4 to 8 false dots, 0.1 to 0.5 px", pinhole_rig(10), 0.02, 4, 9, 0.1},
+      {"1 x 60 deg, 4 to 8 false dots, 0.1 to 0.5 px", equidistant_rig(1, 60), 0.15, 4, 9, 0.1},
+  };
+  for (const NothingThere& sky : skies) {
+    if (++number == row || row == 0)
+      wrong += run_nothing_there(sky, false_skies > 0 ? false_skies : trials, parameters);
+  }
   const std::uint64_t allocations = memory_guard::violations().total();
   std::printf("allocations while identifying: %llu%s\n", static_cast<unsigned long long>(allocations),
               memory_guard::installed() ? "" : " (not watched)");

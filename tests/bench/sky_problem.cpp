@@ -133,6 +133,7 @@ SkyProblem random_sky(const Rig& rig, std::span<const SkyStar> stars, const SkyP
     const auto wanted = static_cast<std::size_t>(
         std::lround(double(seen) * options.false_fraction / (1 - options.false_fraction)));
     for (std::size_t n = 0; n < wanted; ++n) maker.add_false(c, stars[random() % bright].magnitude);
+    for (int n = 0; n < options.false_dots; ++n) maker.add_false(c, stars[random() % bright].magnitude);
     for (int n = 0; n < options.bright_false; ++n) maker.add_false(c, -5);
   }
   for (int n = 0; n < options.false_on_sphere; ++n) {

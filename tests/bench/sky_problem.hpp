@@ -19,6 +19,7 @@ struct SkyProblemOptions {
   double magnitude_scatter = 0.3;  ///< of the measured brightness
   double false_fraction = 0;       ///< of all dots
   int false_on_sphere = 0;         ///< false dots over the whole sphere; those a camera sees are there
+  int false_dots = 0;              ///< in each camera, as bright as random stars
   int bright_false = 0;            ///< false dots in each camera, brighter than any star (planets, lamps)
   int stars_per_camera = 0;        ///< brightest only; 0: all
   double missing_fraction = 0;     ///< stars that were not found

@@ -72,8 +72,53 @@ TEST(StarIdentification, OneCameraOfAnyFieldIsSolved) {
   EXPECT_EQ(narrow.solve({.magnitude_limit = 6.5F, .noise_px = 0.2}, 100, 5).right, 100);
   Sky narrowest(pinhole_rig(10), 0.02);
   const auto count = narrowest.solve({.magnitude_limit = 6.5F, .noise_px = 0.2}, 100, 6);
-  EXPECT_GE(count.right, 97);
+  EXPECT_GE(count.right, 99);
   EXPECT_EQ(count.wrong, 0);
+}
+
+// Their angles alone do not prove an attitude; brightness, and that no other star is to be seen, do.
+TEST(StarIdentification, FourStarsInANarrowFieldAreEnough) {
+  Sky s(pinhole_rig(10), 0.02);
+  std::mt19937_64 random(16);
+  int skies = 0, right = 0;
+  for (int trial = 0; trial < 2500; ++trial) {
+    const SkyProblem problem =
+        random_sky(s.rig, s.catalogue->stars(), {.magnitude_limit = 6.5F, .noise_px = 0.2}, random);
+    if (problem.dots.size() != 4) continue;
+    ++skies;
+    s.identification->identify(problem.dots, *s.answer);
+    const SkyVerdict verdict = judge(problem, *s.answer);
+    EXPECT_NE(verdict, SkyVerdict::kWrong);
+    right += verdict == SkyVerdict::kRight ? 1 : 0;
+  }
+  ASSERT_GE(skies, 5);
+  EXPECT_GE(10 * right, 8 * skies);
+}
+
+TEST(StarIdentification, FewStarsWhoseBrightnessMisleadsAreFoundByTheirAngles) {
+  Sky s(equidistant_rig(3, 122));
+  const SkyProblemOptions options{.noise_px = 0.1, .magnitude_scatter = 1.5, .stars_per_camera = 2};
+  const auto count = s.solve(options, 300, 17);
+  EXPECT_GE(count.right, 297);
+  EXPECT_EQ(count.wrong, 0);
+}
+
+// A loose bound, so that there would be something to count.
+TEST(StarIdentification, FewFalseDotsKeepTheBound) {
+  constexpr double kBound = 0.05;
+  constexpr int kTrials = 150;
+  Sky s(pinhole_rig(10), 0.02, {.false_match_probability = kBound, .hypothesis_limit = 20000});
+  std::mt19937_64 random(18);
+  int answers = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    SkyProblemOptions options{.magnitude_limit = 6.5F, .noise_px = 0.2, .false_dots = 4 + trial % 5};
+    options.stars_per_camera = 1;
+    SkyProblem problem = random_sky(s.rig, s.catalogue->stars(), options, random);
+    std::erase_if(problem.dots, [&](const RigDot& dot) { return problem.hr[dot.index] != 0; });
+    s.identification->identify(problem.dots, *s.answer);
+    answers += s.answer->status == IdentificationStatus::kIdentified ? 1 : 0;
+  }
+  EXPECT_LE(answers, kBound * kTrials);
 }
 
 TEST(StarIdentification, HalfTheDotsMayBeFalse) {

@@ -1,5 +1,7 @@
 #include "components/tracker/constant_rate.hpp"
 
+#include <algorithm>
+
 namespace omma {
 namespace {
 
@@ -12,6 +14,10 @@ double seconds(TimeNs interval_ns) {
 void AttitudePrediction::update(TimeNs time_ns, const Eigen::Quaterniond& rig_from_j2000,
                                 const Eigen::Matrix3d& covariance) noexcept {
   if (count_ > 0 && time_ns <= last_time_ns_) return;
+  if (ready()) {
+    const double seen = at(time_ns).rig_from_j2000.angularDistance(rig_from_j2000) / reach(time_ns);
+    acceleration_seen_ = acceleration_seen_ == kNeverSeen ? seen : std::max(seen, 0.5 * acceleration_seen_);
+  }
   if (count_ > 0) {
     interval_s_ = seconds(time_ns - last_time_ns_);
     turn_ = rotation_log(rig_from_j2000 * last_.conjugate());
@@ -23,10 +29,19 @@ void AttitudePrediction::update(TimeNs time_ns, const Eigen::Quaterniond& rig_fr
   count_ = count_ == 0 ? 1 : 2;
 }
 
+double AttitudePrediction::reach(TimeNs time_ns) const noexcept {
+  const double ahead_s = seconds(time_ns - last_time_ns_);
+  return 0.5 * ahead_s * (ahead_s + interval_s_);
+}
+
+double AttitudePrediction::farthest_seen(TimeNs time_ns) const noexcept {
+  return acceleration_seen_ * reach(time_ns);
+}
+
 PredictedAttitude AttitudePrediction::at(TimeNs time_ns) const noexcept {
   const double ahead_s = seconds(time_ns - last_time_ns_);
   const double h = ahead_s / interval_s_;
-  const double unmodelled = 0.5 * acceleration_sigma_ * ahead_s * (ahead_s + interval_s_);
+  const double unmodelled = acceleration_sigma_ * reach(time_ns);
   PredictedAttitude prediction;
   prediction.rig_from_j2000 = (rotation_exp(h * turn_) * last_).normalized();
   prediction.covariance = (1 + h) * (1 + h) * covariance_ + h * h * covariance_before_ +

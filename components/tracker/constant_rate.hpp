@@ -5,6 +5,8 @@
 // comes from an acceleration a of standard deviation σ: error ½ a (t − t₂)(t − t₁).
 #pragma once
 
+#include <limits>
+
 #include "components/geometry/pose.hpp"
 #include "components/tracker/body_pairing.hpp"
 #include "components/tracker/sky_pairing.hpp"
@@ -13,12 +15,17 @@
 namespace omma {
 
 class AttitudePrediction {
+  static constexpr double kNeverSeen = std::numeric_limits<double>::infinity();
+
  public:
   /// @param acceleration_sigma  angular acceleration not modelled [rad/s²]
   explicit AttitudePrediction(double acceleration_sigma) : acceleration_sigma_(acceleration_sigma) {}
 
   void set_acceleration(double sigma) noexcept { acceleration_sigma_ = sigma; }
-  void reset() noexcept { count_ = 0; }
+  void reset() noexcept {
+    count_ = 0;
+    acceleration_seen_ = kNeverSeen;
+  }
   /// A new estimate; one no newer than the last is ignored.
   void update(TimeNs time_ns, const Eigen::Quaterniond& rig_from_j2000,
               const Eigen::Matrix3d& covariance) noexcept;
@@ -26,9 +33,16 @@ class AttitudePrediction {
   bool ready() const noexcept { return count_ == 2; }
   TimeNs last_time_ns() const noexcept { return last_time_ns_; }
   PredictedAttitude at(TimeNs time_ns) const noexcept;
+  /// How far from its prediction an attitude may be if the rig goes on to accelerate no more than it was last
+  /// seen to: the largest acceleration that the last estimates showed, each counting half of the one after it
+  /// [rad]. Infinite until there were three.
+  double farthest_seen(TimeNs time_ns) const noexcept;
 
  private:
+  double reach(TimeNs time_ns) const noexcept;  // turned by a unit acceleration [s²]
+
   double acceleration_sigma_;
+  double acceleration_seen_ = kNeverSeen;  // [rad/s²]
   int count_ = 0;
   TimeNs last_time_ns_ = 0;
   double interval_s_ = 0;  // between the last two estimates

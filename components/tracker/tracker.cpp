@@ -221,10 +221,13 @@ void Tracker::track_sky(std::span<const HiddenCone> cones) noexcept {
 void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   const std::span<const RigDot> rays(unclaimed_.data(), seen_.unclaimed(unclaimed_));
   if (!recall_sky(rays)) {
+    ++searches_of_the_whole_sky_;
     star_identification_.identify(rays, identification_);
     if (identification_.status != IdentificationStatus::kIdentified) return;
-    lost_sky_.reset();  // it is not where it was expected
+    if (!continues(identification_.rig_from_j2000)) lost_sky_.reset();
   }
+  // Known too badly to pair its stars, and yet where it was expected: the rate still holds.
+  if (!sky_prediction_.ready() && lost_sky_.ready()) sky_prediction_ = lost_sky_;
   // The identified attitude predicts all the other stars, as a tracked one would.
   SkyPairings& sky = pairings->sky;
   const PredictedAttitude found{identification_.rig_from_j2000, identification_.covariance};
@@ -235,17 +238,33 @@ void Tracker::acquire_sky(std::span<const HiddenCone> cones) noexcept {
   sky.rig_from_j2000 = found.rig_from_j2000;
 }
 
-// The sky is looked for where the last attitudes expect it, as long as that says anything: fewer stars prove
-// an attitude that is expected. A wrong expectation costs the aided search and nothing else: what it accepts
-// is proved by the same bound.
-bool Tracker::recall_sky(std::span<const RigDot> rays) noexcept {
+// How far the attitude may be from where it is expected, by what is assumed of the rig [rad].
+double Tracker::farthest_expected(const PredictedAttitude& expected) noexcept {
   constexpr double kSigmas = 5;
   constexpr double kUnforeseen = 0.02;  // [rad] beside what the prediction knows of
-  constexpr double kWidest = 0.5;       // [rad] then it excludes too little
+  return kUnforeseen + kSigmas * largest_sigma(expected.covariance);
+}
+
+bool Tracker::continues(const Eigen::Quaterniond& rig_from_j2000) const noexcept {
+  constexpr double kJump = 1.0;  // [rad]
+  if (!lost_sky_.ready()) return false;
+  const PredictedAttitude expected = lost_sky_.at(dots->time_ns);
+  return expected.rig_from_j2000.angularDistance(rig_from_j2000) <
+         std::min(farthest_expected(expected), kJump);
+}
+
+// The sky is looked for where the last attitudes expect it, as long as that says anything: fewer stars prove
+// an attitude that is expected. Where the rig was seen to accelerate less than it may, nearer. A wrong
+// expectation costs the aided search and nothing else: what it accepts is proved by the same bound.
+bool Tracker::recall_sky(std::span<const RigDot> rays) noexcept {
+  constexpr double kFarther = 3;   // than the last attitudes were from their predictions ...
+  constexpr double kLeast = 0.03;  // ... and this [rad]
+  constexpr double kWidest = 0.8;  // [rad] then it excludes too little
   const AttitudePrediction& last = sky_prediction_.ready() ? sky_prediction_ : lost_sky_;
   if (!last.ready()) return false;
   const PredictedAttitude expected = last.at(dots->time_ns);
-  const double angle = kUnforeseen + kSigmas * largest_sigma(expected.covariance);
+  const double angle =
+      std::min(farthest_expected(expected), kLeast + kFarther * last.farthest_seen(dots->time_ns));
   if (!(angle < kWidest)) return false;
   star_identification_.identify_near(expected.rig_from_j2000, angle, rays, identification_);
   return identification_.status == IdentificationStatus::kIdentified;

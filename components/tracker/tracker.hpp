@@ -57,6 +57,9 @@ class Tracker final : public Component, public CommandReceiver {
   void skipped(const Tick& tick) noexcept override;
   CommandOutcome receive(const Command& command, const Tick& tick) noexcept override;
 
+  /// How often the sky was looked for without knowing where.
+  std::uint64_t searches_of_the_whole_sky() const { return searches_of_the_whole_sky_; }
+
  private:
   /// How long something has been paired in every frame set.
   struct Persistence {
@@ -81,6 +84,8 @@ class Tracker final : public Component, public CommandReceiver {
   void track_bodies(std::span<HiddenCone> cones, std::size_t& cone_count) noexcept;
   void track_sky(std::span<const HiddenCone> cones) noexcept;
   void acquire_sky(std::span<const HiddenCone> cones) noexcept;
+  static double farthest_expected(const PredictedAttitude& expected) noexcept;
+  bool continues(const Eigen::Quaterniond& rig_from_j2000) const noexcept;
   bool recall_sky(std::span<const RigDot> rays) noexcept;
   int acquire_bodies() noexcept;  ///< how many
   void acquire_body(TrackedBody& tracked, BodyPairings& out) noexcept;
@@ -110,6 +115,7 @@ class Tracker final : public Component, public CommandReceiver {
   std::array<BodyPrediction, limits::kTargetBodies> predictions_{};
   TimeNs frame_interval_ns_ = 0;
   std::uint64_t steps_ = 0;
+  std::uint64_t searches_of_the_whole_sky_ = 0;
   bool forget_ = false;  // before the next frame set
 };
 

@@ -37,6 +37,23 @@ TEST(AttitudePrediction, FollowsAConstantTurnExactly) {
   }
 }
 
+TEST(AttitudePrediction, SaysHowFarTheRigMayGoByWhatItWasSeenToDo) {
+  AttitudePrediction prediction(1.0);
+  const auto at = [](double t) { return rotation_exp({0, 0, 0.5 * 0.02 * t * t}); };  // 0.02 rad/s²
+  for (int k = 1; k <= 3; ++k) {
+    EXPECT_TRUE(std::isinf(prediction.farthest_seen(k * kStep)));
+    prediction.update(k * kStep, Eigen::Quaterniond(at(0.1 * k)), Eigen::Matrix3d::Zero());
+  }
+  EXPECT_NEAR(prediction.farthest_seen(4 * kStep), 0.02 * 0.1 * 0.1, 1e-9);
+  // At rest from now on: the first step stops it, the second halves what is remembered of that.
+  const double stopping = prediction.at(4 * kStep).rig_from_j2000.angularDistance(at(0.3));
+  for (int k = 4; k <= 6; ++k)
+    prediction.update(k * kStep, Eigen::Quaterniond(at(0.3)), Eigen::Matrix3d::Zero());
+  EXPECT_NEAR(prediction.farthest_seen(7 * kStep), 0.25 * stopping, 1e-9);
+  prediction.reset();
+  EXPECT_TRUE(std::isinf(prediction.farthest_seen(7 * kStep)));
+}
+
 TEST(AttitudePrediction, CovarianceIsThatOfTheErrorsOfManyTrials) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> gauss;

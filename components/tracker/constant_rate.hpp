@@ -31,7 +31,10 @@ class AttitudePrediction {
               const Eigen::Matrix3d& covariance) noexcept;
   /// True once the rate is known.
   bool ready() const noexcept { return count_ == 2; }
+  /// True when the attitude is known but not the rate.
+  bool without_rate() const noexcept { return count_ == 1; }
   TimeNs last_time_ns() const noexcept { return last_time_ns_; }
+  const Eigen::Quaterniond& last() const noexcept { return last_; }
   PredictedAttitude at(TimeNs time_ns) const noexcept;
   /// How far from its prediction an attitude may be if the rig goes on to accelerate no more than it was last
   /// seen to: the largest acceleration that the last estimates showed, each counting half of the one after it

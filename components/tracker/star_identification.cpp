@@ -14,6 +14,7 @@ constexpr double kShortestPair = 0.1;         // of the camera's field: shorter 
 constexpr double kEntriesPerHypothesis = 32;  // table entries passed over cost as much as one hypothesis
 constexpr double kOutsidePrior = 0.1;         // cost of a hypothesis that the prior excludes, in hypotheses
 constexpr double kWeighing = 0.5;             // cost of the weight of a hypothesis of a sparse sky
+constexpr double kOutsideAtAGlance = 0.02;    // where already a star is too far from where its dot may be
 constexpr double kCrowdedPairs = 4;      // pairs of stars are so many times denser in a prior than on average
 constexpr double kRefinementCost = 500;  // of one refinement, in hypotheses
 
@@ -73,7 +74,7 @@ void StarIdentification::identify_near(const Eigen::Quaterniond& rig_from_j2000,
                                        std::span<const RigDot> dots, Identification& result) noexcept {
   const double angle = std::min(largest_angle, std::numbers::pi);
   identify_aided({rig_from_j2000.conjugate().toRotationMatrix(), 1 + 2 * std::cos(angle),
-                  (angle - std::sin(angle)) / std::numbers::pi},
+                  (angle - std::sin(angle)) / std::numbers::pi, std::cos(angle)},
                  dots, result);
 }
 
@@ -81,7 +82,7 @@ void StarIdentification::identify_pointing(const Eigen::Vector3d& axis, const Ei
                                            double largest_angle, std::span<const RigDot> dots,
                                            Identification& result) noexcept {
   const double cosine = std::cos(std::min(largest_angle, std::numbers::pi));
-  identify_aided({direction * axis.transpose(), cosine, 0.5 * (1 - cosine)}, dots, result);
+  identify_aided({direction * axis.transpose(), cosine, 0.5 * (1 - cosine), {}}, dots, result);
 }
 
 void StarIdentification::identify_aided(const Prior& prior, std::span<const RigDot> dots,
@@ -148,11 +149,21 @@ bool StarIdentification::each_hypothesis(std::span<const SearchDot> order, const
   const SearchDot& a = order[dots.first];
   const SearchDot& b = order[dots.second];
   const Eigen::Matrix3d axes_from_rig = axes_of(a.ray, b.ray).transpose();
+  const bool glance = prior_ && prior_->least_cosine;
+  const Eigen::Vector3d expected_a =
+      glance ? Eigen::Vector3d(prior_->weight * a.ray) : Eigen::Vector3d::Zero();
+  const Eigen::Vector3d expected_b =
+      glance ? Eigen::Vector3d(prior_->weight * b.ray) : Eigen::Vector3d::Zero();
   for (const StarPair& pair : candidates) {
     for (const bool swapped : {false, true}) {
       const std::uint16_t first = swapped ? pair.second : pair.first;
       const std::uint16_t second = swapped ? pair.first : pair.second;
       if (first >= a.faintest || second >= b.faintest) continue;
+      if (glance && (expected_a.dot(stars[first].direction) < *prior_->least_cosine ||
+                     expected_b.dot(stars[second].direction) < *prior_->least_cosine)) {
+        tried_ += kOutsideAtAGlance;
+        continue;
+      }
       const Eigen::Matrix3d j2000_from_rig =
           axes_of(stars[first].direction, stars[second].direction) * axes_from_rig;
       if (prior_ && j2000_from_rig.cwiseProduct(prior_->weight).sum() < prior_->least) {

@@ -41,7 +41,7 @@ const char* reason(IdentificationStatus status) noexcept;
 struct IdentificationParameters {
   double false_match_probability = 1e-7;   ///< bound, over all hypotheses tried for one set of dots
   std::uint32_t hypothesis_limit = 60000;  ///< bound on the work
-  std::uint32_t aided_limit = 4000;        ///< the same of an aided search
+  std::uint32_t aided_limit = 16000;       ///< the same of an aided search
   bool names_mirrored = true;  ///< when nothing fits, look whether a mirror image would (half the work again)
 };
 
@@ -124,6 +124,8 @@ class StarIdentification {
     Eigen::Matrix3d weight;
     double least;
     double fraction;  // of all attitudes that it lets pass
+    std::optional<double>
+        least_cosine;  // the weight is an attitude: between where it sees a dot and its star
   };
   void identify_aided(const Prior& prior, std::span<const RigDot> dots, Identification& result) noexcept;
   bool search_all(std::span<const RigDot> dots, double limit, Identification& result) noexcept;

@@ -257,16 +257,22 @@ bool Tracker::continues(const Eigen::Quaterniond& rig_from_j2000) const noexcept
 // an attitude that is expected. Where the rig was seen to accelerate less than it may, nearer. A wrong
 // expectation costs the aided search and nothing else: what it accepts is proved by the same bound.
 bool Tracker::recall_sky(std::span<const RigDot> rays) noexcept {
-  constexpr double kFarther = 3;   // than the last attitudes were from their predictions ...
-  constexpr double kLeast = 0.03;  // ... and this [rad]
-  constexpr double kWidest = 0.8;  // [rad] then it excludes too little
+  constexpr double kFarther = 3;    // than the last attitudes were from their predictions ...
+  constexpr double kLeast = 0.03;   // ... and this [rad]
+  constexpr double kWidest = 0.8;   // [rad] then it excludes too little
+  constexpr double kAnyRate = 0.5;  // [rad] from the only attitude there was
   const AttitudePrediction& last = sky_prediction_.ready() ? sky_prediction_ : lost_sky_;
-  if (!last.ready()) return false;
-  const PredictedAttitude expected = last.at(dots->time_ns);
-  const double angle =
-      std::min(farthest_expected(expected), kLeast + kFarther * last.farthest_seen(dots->time_ns));
-  if (!(angle < kWidest)) return false;
-  star_identification_.identify_near(expected.rig_from_j2000, angle, rays, identification_);
+  if (last.ready()) {
+    const PredictedAttitude expected = last.at(dots->time_ns);
+    const double angle =
+        std::min(farthest_expected(expected), kLeast + kFarther * last.farthest_seen(dots->time_ns));
+    if (!(angle < kWidest)) return false;
+    star_identification_.identify_near(expected.rig_from_j2000, angle, rays, identification_);
+  } else if (sky_prediction_.without_rate()) {
+    star_identification_.identify_near(sky_prediction_.last(), kAnyRate, rays, identification_);
+  } else {
+    return false;
+  }
   return identification_.status == IdentificationStatus::kIdentified;
 }
 

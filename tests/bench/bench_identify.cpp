@@ -1,5 +1,6 @@
-// Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes, and false
-// answers in skies of false dots alone. A wrong answer makes the exit code 1.
+// Star identification, lost in space: solved, wrong, time, hypotheses over random attitudes, error over
+// bound and NEES (3) of the right answers, and false answers in skies of false dots alone. A wrong answer
+// makes the exit code 1.
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -40,7 +41,8 @@ int run(const Case& c, int trials, const IdentificationParameters& parameters) {
   std::vector<double> dots;
   int right = 0;
   int wrong = 0;
-  int poor = 0, poor_solved = 0;  // skies with fewer than five dots, and which of them were solved
+  double squares = 0, bound = 0, nees = 0;  // of the right answers
+  int poor = 0, poor_solved = 0;            // skies with fewer than five dots, and which of them were solved
   for (int trial = 0; trial < trials; ++trial) {
     const SkyProblem problem = random_sky(c.rig, catalogue->stars(), c.options, random);
     std::normal_distribution<double> gauss;
@@ -57,15 +59,21 @@ int run(const Case& c, int trials, const IdentificationParameters& parameters) {
     const SkyVerdict verdict = judge(problem, *answer);
     right += verdict == SkyVerdict::kRight ? 1 : 0;
     wrong += verdict == SkyVerdict::kWrong ? 1 : 0;
+    if (verdict == SkyVerdict::kRight) {
+      const Eigen::Vector3d error = rotation_log(problem.truth * answer->rig_from_j2000.conjugate());
+      squares += error.squaredNorm();
+      bound += answer->covariance.trace();
+      nees += error.dot(answer->covariance.inverse() * error);
+    }
     hypotheses.push_back(answer->hypotheses);
     dots.push_back(double(problem.dots.size()));
     poor += problem.dots.size() < kPoor ? 1 : 0;
     poor_solved += problem.dots.size() < kPoor && verdict == SkyVerdict::kRight ? 1 : 0;
   }
-  std::printf("%-46s %6d %5.0f %5.0f %8.3f %6d %8.0f %8.0f %8.0f %8.0f %8.0f\n", c.name, trials,
+  std::printf("%-46s %6d %5.0f %5.0f %8.3f %6d %8.0f %8.0f %8.0f %8.0f %8.0f %7.3f %6.2f\n", c.name, trials,
               quantile(dots, 0.5), quantile(dots, 0.0), 100.0 * right / trials, wrong, quantile(times, 0.5),
               quantile(times, 0.99), quantile(times, 1.0), quantile(hypotheses, 0.5),
-              quantile(hypotheses, 1.0));
+              quantile(hypotheses, 1.0), std::sqrt(squares / bound), nees / right);
   if (poor > 0)
     std::printf(
         "    skies with fewer than %zu dots: %.3f %% of all, %d of %d solved; of the others %.3f %%\n", kPoor,
@@ -130,8 +138,8 @@ int bench_identify(Options& options) {
   options.add("--bound", bound,
               "10 to the power of minus this: probability of a false match; with 1 or 2 some happen");
   options.read();
-  std::printf("%-46s %6s %5s %5s %8s %6s %8s %8s %8s %8s %8s\n", "identify", "trials", "dots", "least",
-              "solved%", "wrong", "cpu us", "p99", "max", "hyp med", "hyp max");
+  std::printf("%-46s %6s %5s %5s %8s %6s %8s %8s %8s %8s %8s %7s %6s\n", "identify", "trials", "dots",
+              "least", "solved%", "wrong", "cpu us", "p99", "max", "hyp med", "hyp max", "rms/bd", "NEES");
   const Rig three = equidistant_rig(3, 122);
   const Case cases[] = {
       {"3 x 122 deg, V<4.25, 0.1 px", three, {}, 0.25},

@@ -95,7 +95,7 @@ std::span<const std::uint16_t> DotPatches::around(std::size_t index) noexcept {
   return {seed.neighbours.data(), seed.neighbours_known};
 }
 
-bool DotPatches::next(DotFoursome& foursome) noexcept {
+bool DotPatches::next(DotFoursome& foursome, bool seed_first) noexcept {
   const std::size_t blocks = (order_.size() + kSeedsPerBlock - 1) / kSeedsPerBlock;
   for (; diagonal_ < blocks + kChoices.size(); ++diagonal_, block_ = 0) {
     for (; block_ <= diagonal_ && block_ < blocks; ++block_, in_block_ = 0) {
@@ -109,7 +109,7 @@ bool DotPatches::next(DotFoursome& foursome) noexcept {
         const Choice& choice = kChoices[rank];
         if (choice.c >= near.size()) continue;
         foursome.dots = {near[0], near[choice.a], near[choice.b], near[choice.c]};
-        if (!visited(foursome.dots) && form(foursome)) return true;
+        if (!visited(foursome.dots) && form(foursome, seed_first)) return true;
       }
     }
   }
@@ -127,7 +127,7 @@ bool DotPatches::visited(std::array<std::uint16_t, 4> dots) noexcept {
   return false;
 }
 
-bool DotPatches::form(DotFoursome& foursome) const noexcept {
+bool DotPatches::form(DotFoursome& foursome, bool seed_first) const noexcept {
   std::array<std::uint16_t, 4>& dots = foursome.dots;
   foursome.middle.setZero();
   for (const std::uint16_t dot : dots) foursome.middle += dots_[dot].ray;
@@ -143,7 +143,7 @@ bool DotPatches::form(DotFoursome& foursome) const noexcept {
   // The largest triangle spans; the dot outside it goes last.
   std::size_t left_out = 0;
   double largest = -1;
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = seed_first ? 1 : 0; i < 4; ++i) {
     const double area = std::abs(doubled_area(at[(i + 1) % 4], at[(i + 2) % 4], at[(i + 3) % 4]));
     if (area > largest) {
       largest = area;

@@ -37,7 +37,9 @@ class DotPatches {
   void rewind() noexcept;
 
   /// The next foursome; false when there is none left.
-  bool next(DotFoursome& foursome) noexcept;
+  /// @param seed_first  the seed is one of the three that span the patch: the others are its neighbours, as
+  ///                    they are of the first of a triple of targets
+  bool next(DotFoursome& foursome, bool seed_first) noexcept;
 
   /// A seed and the dots of its camera nearest to it, nearest first, itself at the front.
   std::span<const std::uint16_t> around(std::size_t seed) noexcept;
@@ -55,7 +57,7 @@ class DotPatches {
   void add_camera(std::size_t first, std::size_t last) noexcept;
   bool visited(std::array<std::uint16_t, 4> dots) noexcept;
   /// Orders the four dots, and finds their patch; false where they are too close to a line.
-  bool form(DotFoursome& foursome) const noexcept;
+  bool form(DotFoursome& foursome, bool seed_first) const noexcept;
 
   std::span<const RigDot> dots_;
   double gate_ = 4;

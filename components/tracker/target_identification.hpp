@@ -54,6 +54,7 @@ struct TargetIdentifierOptions {
   double tilt_factor = 1.5;  ///< tan of the largest tilt of the card that the patch comparison allows for
   std::uint32_t most_foursomes = 400;
   std::uint32_t most_hypotheses = 20000;
+  std::uint32_t most_comparisons = 50000;  ///< of foursomes of dots with triples of a solid body's targets
 };
 
 class TargetIdentifier {

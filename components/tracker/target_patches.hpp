@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "components/catalogue/target.hpp"
+#include "components/tracker/four_lanes.hpp"
 
 namespace omma {
 
@@ -41,46 +42,59 @@ class TargetPatches {
   /// `solid`: any, of a body that is no card.
   /// @return how many were written, at most out.size()
   std::size_t matching_planar(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
-  std::size_t matching_solid(const DotPatch& patch, std::span<PatchLabels> out) const noexcept;
+
+  /// Room that `out` must have: what four triples of targets may match at most.
+  static constexpr std::size_t kMostOfBlock = 48;
+  /// @param block  where to go on, 0 at first; the number of blocks at the end
+  std::size_t matching_solid(const DotPatch& patch, std::size_t& block,
+                             std::span<PatchLabels> out) const noexcept;
+  /// Of four ordered triples of targets each, compared with every foursome of dots.
+  std::size_t blocks() const { return blocks_.size(); }
+  std::size_t solid_triples() const { return kFour * blocks_.size(); }
 
   bool flat() const { return flat_; }
   bool has_planar() const { return !planar_.empty(); }
-  /// Ordered triples of targets compared with every foursome of dots.
-  std::size_t triples() const { return triples_.size(); }
 
  private:
+  static constexpr std::size_t kSolidNeighbours = 7;  ///< of a target, that share its solid patches
+  static constexpr std::size_t kFourths = kSolidNeighbours - 2;  ///< of a triple
+  using Row = std::array<float, kFour>;                          ///< of four triples side by side
   struct Triple {
     std::array<std::uint8_t, 3> targets;
-    float g11, g12, g22;  ///< inner products of the two edges [m²]
-    float area;           ///< |e1 × e2| [m²]
-    std::uint32_t first;  ///< its fourths
-    std::uint32_t count;
     /// Of the face that all three are on, against e1 × e2; 0: on no face, or not on one.
     std::int8_t front;
   };
-  struct Fourth {
-    float alpha, beta, gamma;  ///< fourth = first + α e1 + β e2 + γ n, n their unit normal, γ in m
-    std::uint32_t triple;
-    std::uint8_t target;
+  struct Solid {
+    Triple triple;
+    /// Its fourths: first + α e1 + β e2 + γ n, n the unit normal, γ in m; filled up with NaN.
+    std::array<float, kFourths> alpha, beta, gamma;
+    std::array<std::uint8_t, kFourths> fourth;
+    float g11, g12, g22;                    ///< inner products of the two edges [m²]
+    float area;                             ///< |e1 × e2| [m²]
+    float size;                             ///< longest side, squared [m²]
+    std::array<Eigen::Vector3f, 3> facing;  ///< outward normals of the three in e1, e2, n
+  };
+  /// Four triples side by side.
+  struct Block {
+    Row g11, g12, g22, per_gram, per_area;
+    std::array<std::array<Row, 3>, 3> facing;
+    std::array<Row, kFourths> alpha, beta, gamma;  ///< of each triple's first fourth, then their second ones
+    std::array<Triple, kFour> triple;
+    std::array<std::array<std::uint8_t, kFour>, kFourths> fourth;  ///< target, as α
+  };
+  struct PlanarFoursome {
+    float alpha, beta;
+    std::int8_t front;
+    PatchLabels targets;
   };
 
-  /// How three targets lie in space where three dots show them: edges and unit normal (one metre) at the
-  /// scale of the image with the first of them at depth 1.
-  struct Alignment {
-    Eigen::Vector2d u, v;
-    double z1, z2;
-    Eigen::Vector3d normal;
-  };
-
-  static Alignment aligned(const DotPatch& patch, const Triple& triple, double sign) noexcept;
   void add_triple(const TargetBody& body, std::span<const std::uint8_t> neighbours, std::uint8_t i,
-                  std::uint8_t j, std::uint8_t k);
-
+                  std::uint8_t j, std::uint8_t k, std::vector<Solid>& solid);
+  void lay_side_by_side(std::vector<Solid>& solid);
   double tilt_factor_;
-  bool flat_ = false;
-  std::vector<Triple> triples_;
-  std::vector<Fourth> fourths_;  ///< by triple; none of a card
-  std::vector<Fourth> planar_;   ///< those in the plane of their triple, by α
+  bool flat_ = false, has_faces_ = false;
+  std::vector<Block> blocks_;           ///< none of a card; the smallest triples first
+  std::vector<PlanarFoursome> planar_;  ///< foursomes in a plane, by α
 };
 
 }  // namespace omma

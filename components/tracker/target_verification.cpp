@@ -1,7 +1,6 @@
 #include "components/tracker/target_verification.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,15 +9,20 @@
 namespace omma {
 namespace {
 
-/// A tilt the patch does not fix bends what it foretells far from itself: error over squared distance
-/// [1/rad].
-constexpr double kBend = 0.1;
 constexpr int kGrowthRounds = 3;
 /// No earlier pose tells the two minima of a flat card apart: the less likely one must be hopeless.
 constexpr double kPoseMargin = 25.0;
 /// χ² this many of its standard deviations too large: one of the pairs may be wrong.
 constexpr double kSuspect = 5.0;
-constexpr int kMostMisfits = 3;  ///< pairs left out for that
+/// Dots of one camera so close that each may be the other's target [σ]; that is left open where the other way
+/// round fits less than so much worse [χ²: 1 in 10⁴].
+constexpr double kClose = 12.0, kCloseMargin = 18.4;
+constexpr double kSameMinimum = 0.01;  ///< poses turned by less against each other are of one minimum [rad]
+constexpr int kMostMisfits = 3;        ///< pairs left out for that
+
+double turn(const PoseSolution& a, const PoseSolution& b) noexcept {
+  return a.rig_from_body.rotation.angularDistance(b.rig_from_body.rotation);
+}
 
 /// The planes of F faces cut space into so many cells at most; from one cell the same faces are seen.
 double most_aspects(std::span<const Target> targets) {
@@ -53,7 +57,7 @@ double log_odds(const TargetLabelling& of, const TargetLabelling& against) noexc
 }
 
 TargetVerification::TargetVerification(const TargetBody& body, double gate, double least_part)
-    : gate_(gate), least_part_(least_part) {
+    : patch_(body, gate), gate_(gate), least_part_(least_part) {
   for (const Target& target : body.targets) {
     targets_.push_back(target);
     has_faces_ = has_faces_ || !target.normal.isZero(0);
@@ -72,93 +76,12 @@ TargetVerification::TargetVerification(const TargetBody& body, double gate, doub
   final_.ambiguity_margin = kPoseMargin;
 }
 
-void TargetVerification::look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept {
-  middle_ = foursome.middle;
-  plane_ = tangent_basis(middle_);
-  patch_origin_ = dots_[foursome.dots[0]].origin;
-  patch_sigma_ = dots_[foursome.dots[0]].sigma;
-  Eigen::Matrix2d edges;
-  edges << foursome.patch.u, foursome.patch.v;
-  const double determinant = edges(0, 0) * edges(1, 1) - edges(0, 1) * edges(1, 0);
-  affine_from_plane_ << edges(1, 1), -edges(0, 1), -edges(1, 0), edges(0, 0);
-  affine_from_plane_ /= determinant;
-  const Eigen::Vector3d& first = dots_[foursome.dots[0]].ray;
-  patch_first_ = plane_.transpose() * first / first.dot(middle_);
-  near_.clear();
-  for (const std::uint16_t dot : near) {
-    const double depth = dots_[dot].ray.dot(middle_);
-    if (!(depth > 0.1)) continue;
-    near_at_[near_.size()] = plane_.transpose() * dots_[dot].ray / depth;
-    near_.push_back(dot);
-  }
-  fill_cells();
-}
-
-void TargetVerification::fill_cells() noexcept {
-  near_cell_.fill(0);
-  if (near_.empty()) return;
-  Eigen::Vector2d low = near_at_[0], high = near_at_[0];
-  for (std::size_t k = 1; k < near_.size(); ++k) {
-    low = low.cwiseMin(near_at_[k]);
-    high = high.cwiseMax(near_at_[k]);
-  }
-  // One empty cell around, so that every place within a cell of a dot is on the grid.
-  cell_side_ = std::max((high - low).maxCoeff() / (kCells - 2.5), 1e-9);
-  cell_corner_ = low - Eigen::Vector2d::Constant(cell_side_);
-  for (std::size_t k = 0; k < near_.size(); ++k) {
-    const Eigen::Vector2d cell = (near_at_[k] - cell_corner_) / cell_side_;
-    const int x = static_cast<int>(cell.x()), y = static_cast<int>(cell.y());
-    for (int row = std::max(0, y - 1); row <= std::min(kCells - 1, y + 1); ++row)
-      for (int column = std::max(0, x - 1); column <= std::min(kCells - 1, x + 1); ++column)
-        near_cell_[static_cast<std::size_t>(row * kCells + column)] |= 1U << k;
-  }
-}
-
-std::uint32_t TargetVerification::near_dots(const Eigen::Vector2d& at, double reach) const noexcept {
-  if (!(reach <= cell_side_)) return near_.empty() ? 0 : ~0U >> (32 - near_.size());
-  const Eigen::Vector2d cell = (at - cell_corner_) / cell_side_;
-  if (!(cell.x() >= 0 && cell.x() < kCells && cell.y() >= 0 && cell.y() < kCells)) return 0;
-  return near_cell_[static_cast<std::size_t>(static_cast<int>(cell.y()) * kCells +
-                                             static_cast<int>(cell.x()))];
-}
-
-std::size_t TargetVerification::explained_nearby(const Pose& rig_from_body) noexcept {
-  const Eigen::Matrix3d rotation = rig_from_body.rotation.toRotationMatrix();
-  const Eigen::Vector3d offset = rig_from_body.translation - patch_origin_;
-  const Eigen::Matrix<double, 2, 3> across = plane_.transpose();
-  const Eigen::Vector3d viewpoint = rotation.transpose() * -offset;
-  std::uint32_t taken = 0;
+bool TargetVerification::complete(const Pose& rig_from_body, std::span<const TargetPair> hits,
+                                  TargetLabelling& labelling) noexcept {
+  if (hits.size() < 4) return false;
+  patch_origin_ = dots_[hits[0].dot].origin;
   pairs_.clear();
-  for (std::size_t t = 0; t < targets_.size(); ++t) {
-    if (has_faces_ && !faces(targets_[t], viewpoint)) continue;
-    const Eigen::Vector3d d = rotation * targets_[t].position + offset;
-    const double depth = d.dot(middle_);
-    if (!(depth > 0)) continue;
-    const Eigen::Vector2d at = across * d / depth;
-    const Eigen::Vector2d affine = affine_from_plane_ * (at - patch_first_);
-    const double rest = 1 - affine.x() - affine.y();
-    const double spread = std::sqrt(1 + affine.squaredNorm() + rest * rest);
-    const bool far_out = affine.squaredNorm() > 2;
-    const double reach = gate_ * patch_sigma_ * spread + (far_out ? kBend * at.squaredNorm() : 0);
-    double nearest = reach * reach;
-    std::size_t found = near_.size();
-    for (std::uint32_t bits = near_dots(at, reach) & ~taken; bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(std::countr_zero(bits));
-      const double distance = (near_at_[k] - at).squaredNorm();
-      if (distance < nearest) {
-        nearest = distance;
-        found = k;
-      }
-    }
-    if (found == near_.size()) continue;
-    taken |= 1U << found;
-    pairs_.push_back({near_[found], static_cast<std::uint16_t>(t)});
-  }
-  return pairs_.size();
-}
-
-bool TargetVerification::complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept {
-  if (explained_nearby(rig_from_body) < 4) return false;
+  for (const TargetPair& hit : hits) pairs_.push_back(hit);
   solve(rig_from_body, growing_, labelling.pose);
   return grow(labelling);
 }
@@ -169,7 +92,16 @@ void TargetVerification::try_other_minimum(const TargetLabelling& labelling,
   solve(labelling.pose.rig_from_body, growing_, other.pose);
   const CardShape shape = card_shape(sights_, {});
   if (shape.flat) {
-    solve(mirrored_pose(shape, labelling.pose.rig_from_body), growing_, other.pose);
+    const Pose mirrored = mirrored_pose(shape, labelling.pose.rig_from_body);
+    solve(mirrored, growing_, other.pose);
+    // Of a card that is nearly frontal the mirror image may lie this side of the ridge between the two.
+    if (turn(other.pose, labelling.pose) < kSameMinimum) {
+      Pose beyond;
+      beyond.rotation =
+          mirrored.rotation * labelling.pose.rig_from_body.rotation.inverse() * mirrored.rotation;
+      beyond.translation = mirrored * centroid_ - beyond.rotation * centroid_;
+      solve(beyond, growing_, other.pose);
+    }
     if (grow(other)) return;
   }
   other = labelling;
@@ -205,11 +137,43 @@ bool TargetVerification::grow(TargetLabelling& labelling) noexcept {
   if (labelling.pose.pairs < least_explained(labelling.pose.rig_from_body) ||
       labelling.pose.status == SolveStatus::kInconsistent)
     return false;
+  assess(labelling);
+  return true;
+}
+
+void TargetVerification::assess(TargetLabelling& labelling) const noexcept {
   const Surroundings here = surroundings(labelling.pose);
   labelling.log_chance = log_chance(labelling.pose, here);
   labelling.part = static_cast<double>(labelling.pairs.size()) / std::max(here.turned, 1.0);
   const double density = std::max(here.dots - 3, 1.0) / here.area;
   labelling.log_clutter = std::log(2 * std::numbers::pi * here.variance * density);
+}
+
+bool TargetVerification::tell_close_dots_apart(TargetLabelling& labelling) noexcept {
+  std::array<bool, limits::kTargetPairs> either{};
+  std::size_t kept = labelling.pairs.size();
+  for (std::size_t i = 0; i < labelling.pairs.size(); ++i) {
+    const RigDot& a = dots_[labelling.pairs[i].dot];
+    for (std::size_t j = i + 1; j < labelling.pairs.size(); ++j) {
+      const RigDot& b = dots_[labelling.pairs[j].dot];
+      if (a.camera != b.camera || (a.ray - b.ray).norm() > kClose * std::max(a.sigma, b.sigma)) continue;
+      pairs_ = labelling.pairs;
+      std::swap(pairs_[i].target, pairs_[j].target);
+      PoseSolution swapped;
+      solve(labelling.pose.rig_from_body, growing_, swapped);
+      if (swapped.chi2 > labelling.pose.chi2 + kCloseMargin) continue;
+      kept -= (either[i] ? 0U : 1U) + (either[j] ? 0U : 1U);
+      either[i] = either[j] = true;
+    }
+  }
+  if (kept == labelling.pairs.size()) return true;
+  if (kept < 4) return false;
+  pairs_.clear();
+  for (std::size_t i = 0; i < labelling.pairs.size(); ++i)
+    if (!either[i]) pairs_.push_back(labelling.pairs[i]);
+  solve_and_cull(labelling);
+  if (labelling.pose.pairs < 4 || labelling.pose.status == SolveStatus::kInconsistent) return false;
+  assess(labelling);
   return true;
 }
 

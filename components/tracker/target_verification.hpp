@@ -10,7 +10,7 @@
 #include "components/catalogue/target.hpp"
 #include "components/estimation/least_squares.hpp"
 #include "components/geometry/rig_dot.hpp"
-#include "components/tracker/dot_patches.hpp"
+#include "components/tracker/patch_evidence.hpp"
 #include "components/tracker/target_identification.hpp"
 
 namespace omma {
@@ -37,14 +37,24 @@ class TargetVerification {
 
   void start(std::span<const RigDot> dots) noexcept { dots_ = dots; }
   /// @param near  dots around the patch, of the same camera
-  void look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept;
+  void look_at(const DotFoursome& foursome, std::span<const std::uint16_t> near) noexcept {
+    patch_.look_at(dots_, foursome, near);
+  }
 
-  /// Targets explained by the dots around the patch.
-  std::size_t explained_nearby(const Pose& rig_from_body) noexcept;
+  /// What the dots around the patch say of the pose.
+  const PatchEvidence::Found& explained_nearby(const Pose& rig_from_body) noexcept {
+    return patch_.explained(rig_from_body);
+  }
 
   /// Carries the pose to all dots of all cameras.
+  /// @param hits  what the dots around the patch are at this pose, all of one camera
   /// @return false where the pairs do not make a pose, or explain too few targets
-  bool complete(const Pose& rig_from_body, TargetLabelling& labelling) noexcept;
+  bool complete(const Pose& rig_from_body, std::span<const TargetPair> hits,
+                TargetLabelling& labelling) noexcept;
+
+  /// Two dots so close together that either may be the other's target are left out.
+  /// @return false where too few others are left, or they make no pose
+  bool tell_close_dots_apart(TargetLabelling& labelling) noexcept;
 
   /// A flat card's labelling begun in the wrong one of its two minima loses pairs there: `other` is grown
   /// anew from the mirror image of its pose; where that gives nothing, `other` is the labelling itself.
@@ -52,6 +62,8 @@ class TargetVerification {
 
  private:
   bool grow(TargetLabelling& labelling) noexcept;
+  /// What of the targets it explains, and whether that may be chance; over pairs_.
+  void assess(TargetLabelling& labelling) const noexcept;
   /// Targets on faces turned to a camera at `origin`.
   std::size_t turned_to(const Pose& rig_from_body, const Eigen::Vector3d& origin) const noexcept;
   /// Targets that must be explained at a pose: a part of those whose faces are turned to the patch's camera.
@@ -66,9 +78,6 @@ class TargetVerification {
     double radius = 0;  ///< [rad]
   };
 
-  void fill_cells() noexcept;
-  /// Bits of the near dots that can be within `reach` of a place in the patch's plane.
-  std::uint32_t near_dots(const Eigen::Vector2d& at, double reach) const noexcept;
   Region region(const Pose& pose, const Eigen::Vector3d& origin) const noexcept;
   void match_everywhere(const PoseSolution& pose) noexcept;
   void match_camera(const PoseSolution& pose, std::span<const RigDot> dots, std::size_t first) noexcept;
@@ -86,6 +95,7 @@ class TargetVerification {
   /// ln of the ways to choose k of so many.
   double log_choose(double of, std::size_t k) const noexcept;
 
+  PatchEvidence patch_;
   std::vector<Target> targets_;
   bool has_faces_ = false;
   double log_aspects_ = 0;  ///< ln of the sets of targets that can be turned to a camera together
@@ -96,20 +106,7 @@ class TargetVerification {
   std::array<double, limits::kTargetPairs + 1> log_factorial_{};
 
   std::span<const RigDot> dots_;
-  Eigen::Vector3d patch_origin_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d middle_ = Eigen::Vector3d::UnitZ();
-  Eigen::Matrix<double, 3, 2> plane_ = Eigen::Matrix<double, 3, 2>::Zero();
-  Eigen::Vector2d patch_first_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d affine_from_plane_ = Eigen::Matrix2d::Identity();
-  double patch_sigma_ = 0;
-  StaticVector<std::uint16_t, DotPatches::kNeighbours + 1> near_;
-  std::array<Eigen::Vector2d, DotPatches::kNeighbours + 1> near_at_{};
-  /// Which of the near dots are within one cell of a cell of the patch's plane (a bit each).
-  static constexpr int kCells = 16;
-  std::array<std::uint32_t, kCells * kCells> near_cell_{};
-  Eigen::Vector2d cell_corner_ = Eigen::Vector2d::Zero();
-  double cell_side_ = 1;
-
+  Eigen::Vector3d patch_origin_ = Eigen::Vector3d::Zero();  ///< camera of the patch, rig frame [m]
   StaticVector<TargetPair, limits::kTargetPairs> pairs_;
   StaticVector<Sight, limits::kTargetPairs> sights_;
   std::array<std::uint8_t, limits::kTargetPairs> used_{};

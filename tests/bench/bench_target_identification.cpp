@@ -1,9 +1,12 @@
 // Target identification: share solved, wrong and left open, time, on clouds of dots with clutter and hidden
 // targets (card_problem.hpp).
 #include <Eigen/LU>
+#include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "components/tracker/target_identification.hpp"
+#include "components/tracker/target_verification.hpp"
 #include "tests/bench/benches.hpp"
 #include "tests/bench/card_problem.hpp"
 #include "tests/bench/measure.hpp"
@@ -17,7 +20,34 @@ struct Tally {
   std::vector<double> times;
   int right = 0, wrong = 0, ambiguous = 0, open = 0;
   double foursomes = 0, hypotheses = 0, verified = 0;
+  std::map<std::size_t, std::vector<double>>
+      log_chances;  ///< of the truth left open, by dots of the body seen
 };
+
+/// ln of the expected number of chance matches as good as the true labelling of a cloud.
+double true_log_chance(const CardProblem& problem, std::span<const TargetPair> truth) {
+  const TargetIdentifierOptions options;
+  TargetVerification verification(problem.body, options.gate, options.least_part);
+  verification.start(problem.dots);
+  TargetLabelling labelling;
+  return verification.complete(problem.truth, truth, labelling) ? labelling.log_chance : 0;
+}
+
+void note_left_open(const CardProblem& problem, Tally& tally) {
+  std::vector<TargetPair> truth;
+  for (std::size_t i = 0; i < problem.dots.size(); ++i)
+    if (problem.target_of_dot[i] >= 0)
+      truth.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(problem.target_of_dot[i])});
+  tally.log_chances[truth.size()].push_back(truth.size() < 4 ? 0 : true_log_chance(problem, truth));
+}
+
+void print_left_open(const Tally& tally) {
+  for (const auto& [dots, log_chances] : tally.log_chances)
+    std::printf(
+        "    left open: %4zu with %zu dots of the body, of whose labelling chance makes e^%.1f to e^%.1f\n",
+        log_chances.size(), dots, *std::min_element(log_chances.begin(), log_chances.end()),
+        *std::max_element(log_chances.begin(), log_chances.end()));
+}
 
 /// Wrong: more than a quarter of the pairs are not the truth, or the pose is beyond 10 σ and not said to be
 /// ambiguous. (A dot of clutter within the noise of where a hidden target would be cannot be told from it.)
@@ -40,6 +70,9 @@ void run(const char* name, const CardProblemOptions& options, int trials) {
     tally.foursomes += found.foursomes;
     tally.hypotheses += found.hypotheses;
     tally.verified += found.verified;
+    if (options.body_present && (found.status == TargetIdentificationStatus::kNoMatch ||
+                                 found.status == TargetIdentificationStatus::kWorkLimit))
+      note_left_open(problem, tally);
     if (found.status == TargetIdentificationStatus::kAmbiguous)
       ++tally.ambiguous;
     else if (found.status != TargetIdentificationStatus::kIdentified)
@@ -54,6 +87,7 @@ void run(const char* name, const CardProblemOptions& options, int trials) {
               100.0 * tally.open / trials, quantile(tally.times, 0.5), quantile(tally.times, 0.99),
               quantile(tally.times, 1.0), tally.foursomes / trials, tally.hypotheses / trials,
               tally.verified / trials);
+  print_left_open(tally);
 }
 
 void table(const char* title, CardProblemOptions options, int trials) {

@@ -178,6 +178,36 @@ TEST(TargetIdentification, AGridWithOneDotMissingFromTheCardItselfIsNotAmbiguous
   EXPECT_EQ(found.pairs.size(), marked.targets.size());
 }
 
+// Two targets one behind the other, `apart` [rad] in the image, among six others.
+TargetBody body_with_a_close_pair(double apart) {
+  TargetBody body;
+  for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, 0, 0.1), Eigen::Vector3d(1.1 * apart, 0, -0.1),
+                                    Eigen::Vector3d(0.1, 0.03, 0.05), Eigen::Vector3d(-0.09, 0.06, -0.04),
+                                    Eigen::Vector3d(0.04, -0.1, 0.02), Eigen::Vector3d(-0.05, -0.07, 0.09),
+                                    Eigen::Vector3d(0.02, 0.11, -0.08), Eigen::Vector3d(0.08, 0.09, 0.07)}) {
+    Target target;
+    target.position = at;
+    body.targets.push_back(target);
+  }
+  return body;
+}
+
+TEST(TargetIdentification, TwoDotsThatMayBeEachOthersAreLeftOut) {
+  constexpr double kSigma = 4e-4;
+  for (const double apart : {1.5 * kSigma, 30 * kSigma}) {
+    const TargetBody body = body_with_a_close_pair(apart);
+    const std::vector<RigDot> dots =
+        dots_of(body, {Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, 0, 1.2)}, kSigma);
+    const TargetIdentification found = TargetIdentifier(body).identify(dots);
+    ASSERT_EQ(found.status, TargetIdentificationStatus::kIdentified);
+    EXPECT_EQ(found.pairs.size(), apart > 10 * kSigma ? 8U : 6U);
+    for (const TargetPair& pair : found.pairs) {
+      EXPECT_EQ(pair.dot, pair.target);
+      EXPECT_TRUE(apart > 10 * kSigma || pair.target > 1);
+    }
+  }
+}
+
 TEST(TargetIdentification, TooFewDotsOrTargetsAreSaidSo) {
   const TargetBody body = grid_card(3, 3);
   const Pose pose{Eigen::Quaterniond(0, 1, 0, 0), {0, 0, 1}};
@@ -202,6 +232,7 @@ TEST(TargetIdentification, WorkIsBoundedWhateverTheDots) {
     const TargetIdentification found = TargetIdentifier(problem.body).identify(problem.dots);
     EXPECT_NE(found.status, TargetIdentificationStatus::kIdentified);
     EXPECT_LE(found.foursomes, limits.most_foursomes);
+    EXPECT_LE(found.hypotheses, limits.most_hypotheses + 4096);  // a foursome begun is looked at to its end
   }
 }
 

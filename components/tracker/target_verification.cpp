@@ -18,7 +18,9 @@ constexpr double kSuspect = 5.0;
 /// round fits less than so much worse [χ²: 1 in 10⁴].
 constexpr double kClose = 12.0, kCloseMargin = 18.4;
 constexpr double kSameMinimum = 0.01;  ///< poses turned by less against each other are of one minimum [rad]
-constexpr int kMostMisfits = 3;        ///< pairs left out for that
+/// Standard deviations of the pose within which a face may be turned away, and the most of that [cosine].
+constexpr double kDoubtSigmas = 3, kMostDoubt = 0.2;
+constexpr int kMostMisfits = 3;  ///< pairs left out for that
 
 double turn(const PoseSolution& a, const PoseSolution& b) noexcept {
   return a.rig_from_body.rotation.angularDistance(b.rig_from_body.rotation);
@@ -107,12 +109,14 @@ void TargetVerification::try_other_minimum(const TargetLabelling& labelling,
   other = labelling;
 }
 
-std::size_t TargetVerification::turned_to(const Pose& rig_from_body,
-                                          const Eigen::Vector3d& origin) const noexcept {
+std::size_t TargetVerification::turned_to(const Pose& rig_from_body, const Eigen::Vector3d& origin,
+                                          double doubt) const noexcept {
   if (!has_faces_) return targets_.size();
   const Eigen::Vector3d viewpoint = rig_from_body.inverse() * origin;
-  return static_cast<std::size_t>(std::count_if(
-      targets_.begin(), targets_.end(), [&](const Target& target) { return faces(target, viewpoint); }));
+  return static_cast<std::size_t>(std::count_if(targets_.begin(), targets_.end(), [&](const Target& target) {
+    const double distance = (viewpoint - target.position).norm();
+    return faces(target, viewpoint - doubt * distance * target.normal);
+  }));
 }
 
 std::size_t TargetVerification::least_explained(const Pose& rig_from_body) const noexcept {
@@ -144,7 +148,8 @@ bool TargetVerification::grow(TargetLabelling& labelling) noexcept {
 void TargetVerification::assess(TargetLabelling& labelling) const noexcept {
   const Surroundings here = surroundings(labelling.pose);
   labelling.log_chance = log_chance(labelling.pose, here);
-  labelling.part = static_cast<double>(labelling.pairs.size()) / std::max(here.turned, 1.0);
+  const auto explained = static_cast<double>(labelling.pairs.size());
+  labelling.part = explained / std::max(here.expected, explained);
   const double density = std::max(here.dots - 3, 1.0) / here.area;
   labelling.log_clutter = std::log(2 * std::numbers::pi * here.variance * density);
 }
@@ -290,6 +295,9 @@ void TargetVerification::match_camera(const PoseSolution& pose, std::span<const 
 TargetVerification::Surroundings TargetVerification::surroundings(
     const PoseSolution& solution) const noexcept {
   Surroundings here;
+  // A face just short of grazing, or just past it, is told from the other only as well as the pose is known.
+  const double doubt =
+      std::min(kMostDoubt, kDoubtSigmas * std::sqrt(solution.covariance.topLeftCorner<3, 3>().trace()));
   for (std::size_t first = 0; first < dots_.size();) {
     const Region seen = region(solution.rig_from_body, dots_[first].origin);
     const double smallest = std::cos(std::min(std::numbers::pi, seen.radius + 3 * dots_[first].sigma));
@@ -303,6 +311,8 @@ TargetVerification::Surroundings TargetVerification::surroundings(
       const auto turned = static_cast<double>(turned_to(solution.rig_from_body, dots_[first].origin));
       here.chances += turned;
       here.turned = std::max(here.turned, turned);
+      here.expected = std::max(
+          here.expected, static_cast<double>(turned_to(solution.rig_from_body, dots_[first].origin, doubt)));
     }
     first = i;
   }

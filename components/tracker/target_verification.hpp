@@ -64,8 +64,9 @@ class TargetVerification {
   bool grow(TargetLabelling& labelling) noexcept;
   /// What of the targets it explains, and whether that may be chance; over pairs_.
   void assess(TargetLabelling& labelling) const noexcept;
-  /// Targets on faces turned to a camera at `origin`.
-  std::size_t turned_to(const Pose& rig_from_body, const Eigen::Vector3d& origin) const noexcept;
+  /// Targets on faces turned to a camera at `origin`, by more than grazing and `doubt` [cosine].
+  std::size_t turned_to(const Pose& rig_from_body, const Eigen::Vector3d& origin,
+                        double doubt = 0) const noexcept;
   /// Targets that must be explained at a pose: a part of those whose faces are turned to the patch's camera.
   std::size_t least_explained(const Pose& rig_from_body) const noexcept;
   /// Over pairs_, which are then those the solver kept.
@@ -88,6 +89,7 @@ class TargetVerification {
     double area = 0;      ///< [sr]
     double chances = 0;   ///< targets looked for: those turned to a camera, once a camera
     double turned = 0;    ///< the most that are turned to one of them
+    double expected = 0;  ///< the same without faces so nearly grazing that the pose cannot tell
     double variance = 0;  ///< mean of the paired dots' variances [rad²]
   };
   Surroundings surroundings(const PoseSolution& solution) const noexcept;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <string>
 
 #include "components/tracker/target_identification.hpp"
 #include "components/tracker/target_verification.hpp"
@@ -114,16 +115,22 @@ void absent_rows(int trials) {
   problem.clutter = 0.5;
   problem.body_present = false;
   std::printf("\n");
-  for (const int targets : {5, 8, 12, 25}) {
-    problem.targets = targets;
+  const auto both_clouds = [&](const char* body) {
     for (const bool on_card : {false, true}) {
       problem.clutter_on_card = on_card;
       char name[80];
-      std::snprintf(name, sizeof name, "%d targets, body absent, dots %s", targets,
+      std::snprintf(name, sizeof name, "%s, body absent, dots %s", body,
                     on_card ? "crowded" : "over the image");
       run(name, problem, trials);
     }
+  };
+  for (const int targets : {5, 8, 12, 25}) {
+    problem.targets = targets;
+    both_clouds((std::to_string(targets) + " targets").c_str());
   }
+  problem.faces = true;
+  problem.targets = 6;
+  both_clouds("box, 6 LEDs a face");
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ TEST(TargetIdentification, ABoxIsFoundByWhicheverFacesShow) {
       options.targets = lights;
       options.clutter = clutter;
       const Score found = score(options, 100);
-      // Of 100 clouds about 95 with six lights a face, less three deviations of chance; nearly all with ten.
-      EXPECT_GE(found.right, lights == 6 ? 88 : 98) << lights << " a face, clutter " << clutter;
+      // A face so nearly grazing that the pose cannot tell whether it shows is not missed.
+      EXPECT_GE(found.right, 99) << lights << " a face, clutter " << clutter;
       EXPECT_EQ(found.wrong, 0) << lights << " a face, clutter " << clutter;
     }
   }

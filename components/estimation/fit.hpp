@@ -46,7 +46,7 @@ class Fit {
 
   /// Starts again from another pose, with the sights kept so far.
   void solve_kept(const Pose& initial) noexcept {
-    descent_ = run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial);
+    descent_ = run(kept_weights(), initial);
     measure_residuals();
   }
 
@@ -71,7 +71,10 @@ class Fit {
   std::size_t kept() const { return kept_; }
   int iterations() const { return iterations_; }
   bool keeps(std::size_t i) const { return kept_ == sights_.size() || weights_[i] > 0; }
-  std::span<const double> weights() const { return {weights_.data(), sights_.size()}; }
+  /// Of the sights kept; empty, which is quicker to sum over, while that is all of them.
+  std::span<const double> kept_weights() const {
+    return kept_ == sights_.size() ? std::span<const double>{} : weights();
+  }
   std::span<const Sight> sights() const { return sights_; }
 
   double chi2() const {
@@ -96,14 +99,14 @@ class Fit {
   }
   /// Of the sights kept.
   NormalEquations<kUnknowns> equations_at(const Pose& pose) const noexcept {
-    return normal_equations<kUnknowns>(sights_,
-                                       kept_ == sights_.size() ? std::span<const double>{} : weights(), pose);
+    return normal_equations<kUnknowns>(sights_, kept_weights(), pose);
   }
   Descent<kUnknowns> descend_kept(const Pose& initial, double largest_cost) noexcept {
-    return run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial, largest_cost);
+    return run(kept_weights(), initial, largest_cost);
   }
 
  private:
+  std::span<const double> weights() const { return {weights_.data(), sights_.size()}; }
   Descent<kUnknowns> run(std::span<const double> given, const Pose& initial,
                          double largest_cost = std::numeric_limits<double>::infinity()) noexcept {
     Descent<kUnknowns> descent =
@@ -124,7 +127,7 @@ class Fit {
       kept_ += inside ? 1 : 0;
     }
     if (kept_ <= kFewestPairs<kUnknowns>) return false;
-    descent_ = run(kept_ == sights_.size() ? std::span<const double>{} : weights(), initial);
+    descent_ = run(kept_weights(), initial);
     return true;
   }
 

@@ -88,8 +88,7 @@ PoseSolution solve_pose(std::span<const Sight> sights, const Pose& initial,
   CardShape shape;
   if (sights.size() >= kFewestPairs<kPoseUnknowns>) {
     fit.solve(initial);
-    shape = card_shape(fit.sights(),
-                       fit.kept() == fit.sights().size() ? std::span<const double>{} : fit.weights());
+    shape = card_shape(fit.sights(), fit.kept_weights());
     const bool follows = options.second_minimum == SecondMinimum::kFollow && shape.flat &&
                          fit.kept() > kFewestPairs<kPoseUnknowns> && !fit.descent().singular;
     if (follows) follow_second_minimum(shape, expected, options, fit, solution);

@@ -49,7 +49,7 @@ int run(const Case& c, int trials, const IdentificationParameters& parameters) {
     const Eigen::Vector3d axis(gauss(aside), gauss(aside), gauss(aside));
     const Eigen::Quaterniond prior =
         rotation_exp(0.7 * c.aided_deg * kDegree * axis.normalized()) * problem.truth;
-    times.push_back(cpu_microseconds([&] {
+    times.push_back(microseconds([&] {
       const RealTimeScope scope;
       if (c.aided_deg > 0)
         identification->identify_near(prior, c.aided_deg * kDegree, problem.dots, *answer);
@@ -110,7 +110,7 @@ int run_nothing_there(const NothingThere& c, int trials, const IdentificationPar
     options.noise_px = c.noise_px * (1 + double(random() % 5));
     SkyProblem problem = random_sky(c.rig, catalogue->stars(), options, random);
     std::erase_if(problem.dots, [&](const RigDot& dot) { return problem.hr[dot.index] != 0; });
-    times.push_back(cpu_microseconds([&] { identification->identify(problem.dots, *answer); }));
+    times.push_back(microseconds([&] { identification->identify(problem.dots, *answer); }));
     answers += answer->status == IdentificationStatus::kIdentified ||
                answer->status == IdentificationStatus::kMirrored;
     hypotheses.push_back(answer->hypotheses);

@@ -27,18 +27,6 @@ double microseconds(Call&& call) {
   return thread_microseconds() - start;
 }
 
-/// Processor time of this thread for one call [µs]: what the call costs, whoever else is on the machine.
-template <class Call>
-double cpu_microseconds(Call&& call) {
-  timespec start{};
-  timespec end{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &start);
-  call();
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &end);
-  return 1e6 * static_cast<double>(end.tv_sec - start.tv_sec) +
-         1e-3 * static_cast<double>(end.tv_nsec - start.tv_nsec);
-}
-
 /// What the real-time stretches (RealTimeScope) of this run did to memory, by the memory guard.
 inline void print_memory_touched() {
   const memory_guard::Violations found = memory_guard::violations();
